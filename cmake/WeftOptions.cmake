@@ -1,0 +1,25 @@
+# Compile options every target shares: C++20, warnings as errors, and floating point that means what it says.
+add_library(weft_options INTERFACE)
+target_compile_features(weft_options INTERFACE cxx_std_20)
+set(CMAKE_CXX_EXTENSIONS OFF)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+# -ffp-contract=off: the reference must round after every operation, as the shaders do under `precise`.
+# -fno-math-errno: lets sqrt become one instruction (and vectorise); results are unchanged.
+target_compile_options(weft_options INTERFACE
+  -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion
+  -ffp-contract=off -fno-math-errno -fno-trapping-math)
+target_compile_definitions(weft_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_DEPTH_ZERO_TO_ONE)
+if(WEFT_SANITIZE)
+  target_compile_options(weft_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer)
+  target_link_options(weft_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(WEFT_TIDY)
+  set(CMAKE_CXX_CLANG_TIDY clang-tidy)
+endif()
+find_program(WEFT_CCACHE ccache)
+if(WEFT_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${WEFT_CCACHE})
+endif()

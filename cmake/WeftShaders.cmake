@@ -1,0 +1,27 @@
+# Compiles every shader to SPIR-V with glslc and embeds the modules in the library weft_spirv.
+file(GLOB shader_sources CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/shaders/passes/*.comp ${CMAKE_SOURCE_DIR}/shaders/draw/*.vert ${CMAKE_SOURCE_DIR}/shaders/draw/*.frag)
+set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
+set(spirv_files "")
+set(spirv_names "")
+foreach(source ${shader_sources})
+  file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/shaders ${source})
+  set(output ${spirv_dir}/${name}.spv)
+  get_filename_component(folder ${output} DIRECTORY)
+  file(MAKE_DIRECTORY ${folder})
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -MD -MF ${output}.d -o ${output} ${source}
+    COMMAND $<IF:$<BOOL:${SPIRV_VAL}>,${SPIRV_VAL},true> $<$<BOOL:${SPIRV_VAL}>:--scalar-block-layout>
+      $<$<BOOL:${SPIRV_VAL}>:--target-env> $<$<BOOL:${SPIRV_VAL}>:vulkan1.3> ${output}
+    DEPENDS ${source} DEPFILE ${output}.d COMMENT "glslc ${name}" VERBATIM COMMAND_EXPAND_LISTS)
+  list(APPEND spirv_files ${output})
+  list(APPEND spirv_names ${name})
+endforeach()
+
+set(embedded ${CMAKE_BINARY_DIR}/spirv/embedded.cpp)
+string(JOIN "," names ${spirv_names})
+add_custom_command(OUTPUT ${embedded}
+  COMMAND ${CMAKE_COMMAND} -DDIR=${spirv_dir} -DNAMES=${names} -DOUT=${embedded} -P ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+  DEPENDS ${spirv_files} ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake COMMENT "embedding SPIR-V" VERBATIM)
+add_library(weft_spirv STATIC ${embedded})
+target_include_directories(weft_spirv PUBLIC ${CMAKE_SOURCE_DIR}/cmake)

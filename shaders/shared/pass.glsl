@@ -1,0 +1,18 @@
+// What every pass includes: the dictionary's bindings, the parameter block, and the words READS, WRITES
+// and UPDATES that declare its interface. The host reads access and strides back from the SPIR-V.
+#extension GL_EXT_scalar_block_layout : require
+#include "buffers.h"
+#include "params.h"
+
+#define WEFT_BINDING(name, binding, element, unit) const uint kBinding_##name = binding;
+WEFT_BUFFERS(WEFT_BINDING)
+#undef WEFT_BINDING
+
+#define READS(type, name) \
+  layout(scalar, set = 0, binding = kBinding_##name) restrict readonly buffer Block_##name { type name[]; };
+#define WRITES(type, name) \
+  layout(scalar, set = 0, binding = kBinding_##name) restrict writeonly buffer Block_##name { type name[]; };
+#define UPDATES(type, name) \
+  layout(scalar, set = 0, binding = kBinding_##name) restrict buffer Block_##name { type name[]; };
+
+layout(scalar, set = 0, binding = kBinding_params) restrict readonly buffer Block_params { Params params; };

@@ -1,0 +1,79 @@
+// A Vulkan 1.3 device: choosing it by rank or name, its queue, its limits, its validation messages.
+// Nothing here knows of cloth.
+#pragma once
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace weft::gpu {
+
+class Allocator;
+class PipelineCache;
+
+struct DeviceInfo {
+  std::uint32_t index = 0;  ///< place in the ranked list
+  std::string name, driver, uuid, api_version;
+  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+  bool software = false;
+  bool float64 = false;
+  bool timestamps = false;
+  bool wireframe = false;   ///< fillModeNonSolid
+  std::uint64_t memory_bytes = 0;
+  std::string unusable;     ///< why it cannot run Weft; empty when it can
+};
+
+/// Every Vulkan device there is, ranked discrete, integrated, virtual, software; unusable ones last.
+/// Without a Vulkan loader or driver the list is empty.
+std::vector<DeviceInfo> list_devices();
+
+struct DeviceOptions {
+  std::string choice;            ///< part of the name, index in list_devices(), or UUID; empty: the first usable
+  bool validation = false;       ///< core and synchronization validation; every message is counted
+  bool force_staging = false;    ///< pretend no device memory is host visible (also WEFT_FORCE_STAGING=1)
+  std::vector<const char*> instance_extensions, device_extensions;  ///< for a window
+};
+
+class Device {
+ public:
+  /// @throws Error(Exit::no_device) naming the devices there are and why each will not do.
+  explicit Device(const DeviceOptions&);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceInfo& info() const;
+  VkInstance instance() const;
+  VkPhysicalDevice physical() const;
+  VkDevice handle() const;
+  VkQueue queue() const;
+  std::uint32_t queue_family() const;
+  const VkPhysicalDeviceLimits& limits() const;
+  Allocator& allocator();
+  PipelineCache& pipeline_cache();
+
+  /// Messages of the validation layer so far (errors and warnings); tests require none.
+  const std::vector<std::string>& validation_messages() const;
+  /// Records and submits once, and waits: uploads, read-backs, tests.
+  void run_once(const std::function<void(VkCommandBuffer)>& record);
+  /// Submits, signalling the device's timeline; returns the value that `wait` takes.
+  std::uint64_t submit(VkCommandBuffer commands);
+  void wait(std::uint64_t value);
+  std::uint64_t completed();  ///< latest finished timeline value
+  void wait_idle();
+  /// Names an object for RenderDoc and validation messages.
+  void name(VkObjectType type, std::uint64_t handle, const std::string& text);
+  VkSemaphore timeline() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// @throws Error naming the wish and Vulkan's answer; out of memory and device loss are Exit::no_device.
+void check(VkResult result, const char* wish);
+
+}  // namespace weft::gpu

@@ -1,0 +1,77 @@
+// The Model: everything immutable that follows from a Scene before time runs. Grid, masses, pins, spring
+// kinds and the stable-step bound, exactly as docs/physics.md states them. Never changes after build().
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace weft {
+
+/// The rectangular particle grid. Particle (i, j) has index j·nx + i; row 0 is the top edge.
+struct Grid {
+  std::uint32_t nx = 0, ny = 0;
+  double spacing_m = 0.0;  ///< a, the edge of a square cell
+  std::uint32_t count() const { return nx * ny; }
+  std::uint32_t index(std::uint32_t i, std::uint32_t j) const { return j * nx + i; }
+  double width_m() const { return spacing_m * (nx - 1); }
+  double height_m() const { return spacing_m * (ny - 1); }  ///< the real height
+};
+
+/// One family of springs: all joins of offset (di, dj). Coefficients are unweighted interior values.
+struct SpringKind {
+  int di, dj;              ///< (1,0) (0,1) (1,1) (−1,1) (2,0) (0,2)
+  double stiffness_n_m;    ///< k
+  double rest_m;
+  double damping_n_s_m;    ///< c = min(beta·k, 2·zeta·sqrt(k·m0/2)), unweighted
+  bool halves_on_boundary; ///< weight ½ along a boundary line (structural, flex)
+};
+enum SpringName { kStructuralI, kStructuralJ, kShearDown, kShearUp, kFlexI, kFlexJ, kSpringKindCount };
+
+/// lambda bounds the largest eigenvalue of M⁻¹K, gamma that of the spring damping, in any configuration.
+struct StepBound {
+  double lambda_1_s2 = 0.0;
+  double gamma_1_s = 0.0;
+};
+
+struct Model {
+  Scene scene;
+  Grid grid;
+  double interior_mass_kg = 0.0;          ///< m0 = rho·a²
+  std::vector<double> relative_inverse_mass;  ///< m0/m: 1 inside, 2 edge, 4 corner, 0 pinned; shape [count]
+  std::array<SpringKind, kSpringKindCount> springs;  ///< kinds with k = 0 are absent
+  double bend_kappa_n_m = 0.0;            ///< kappa = B/a² of an interior line [N/m]
+  double half_thickness_m = 0.0;          ///< of the cloth in contact; 0 without self-collision
+  std::uint64_t spring_count = 0;         ///< springs that exist and do not join two pinned particles
+  StepBound bound;
+
+  double inverse_mass(std::uint32_t particle) const {
+    return relative_inverse_mass[particle] / interior_mass_kg;
+  }
+};
+
+/// Positions [m] and velocities [m/s] at one instant, in particle order. Floats survive the round trip exactly.
+struct State {
+  std::vector<glm::dvec3> position, velocity;
+  double time_s = 0.0;
+};
+
+/// @throws Error(Exit::usage) when a pin holds no particle.
+Model build_model(const Scene& scene);
+
+/// For tests of extreme mass ratios only: the same model with every particle's inverse mass scaled.
+Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_scale);
+
+/// The scene's start: flat, at rest, with its imperfection.
+State start_state(const Model& model);
+
+/// Wind velocity [m/s] at time t; zero without wind.
+glm::dvec3 wind_at(const Scene& scene, double time_s);
+
+/// A sphere's centre [m] at time t.
+glm::dvec3 sphere_center_at(const SphereSection& sphere, double time_s);
+
+}  // namespace weft

@@ -1,0 +1,62 @@
+// A pass: its declaration (name, where it runs, which constants, what error is allowed) and its
+// independent CPU mirror. Its shader is shaders/passes/<name>.comp; bindings are read from the SPIR-V.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "model/model.h"
+#include "passes/host_buffers.h"
+
+namespace weft {
+
+/// Items along x and y that a dispatch covers; empty means "not in the plan".
+struct Range {
+  std::uint32_t x = 0, y = 0;
+  std::uint32_t cloth = 0, offset = 0;  ///< which cloth, and its first item
+  bool empty() const { return x == 0 || y == 0; }
+  std::uint64_t items() const { return std::uint64_t{x} * y; }
+};
+
+/// A specialization constant; its id is its place in the list. bools are 0 or 1.
+struct Constant {
+  std::string_view name;
+  std::uint32_t value;
+};
+using Constants = std::vector<Constant>;
+
+/// How far a device without correctly rounded division and square root may stray, for one execution.
+struct Tolerance {
+  double relative;  ///< to the largest magnitude in the buffer
+  double absolute;
+};
+
+/// One row of a frame's schedule in double: what dispatch r does. (kick, drift) are data.
+struct KickDrift {
+  double kick_s = 0, drift_s = 0;
+  double kick_time_s = 0;   ///< when the kick's wind is evaluated
+  double drift_time_s = 0;  ///< when the drift begins
+};
+
+/// What a mirror sees: the model, the constants of the step, which dispatch of the frame it is.
+struct MirrorContext {
+  const Model& model;
+  std::span<const Constant> constants;
+  const KickDrift& row;
+  std::uint32_t row_index = 0;
+};
+
+struct Pass {
+  std::string_view name;
+  std::string_view about;
+  Range (*domain)(const Model&);
+  Constants (*constants)(const Model&);
+  std::uint64_t (*spring_evaluations)(const Model&);  ///< of one dispatch
+  void (*mirror_f32)(const MirrorContext&, HostBuffers<float>&);
+  void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
+  Tolerance tolerance;
+};
+
+}  // namespace weft

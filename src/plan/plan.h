@@ -1,0 +1,48 @@
+// The Plan: an ordered list of dispatches in three blocks, the buffers they need, and what was left out
+// and why. The CPU reference and the GPU are two interpreters of it.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/model.h"
+#include "passes/pass.h"
+#include "solvers/solver.h"
+
+namespace weft {
+
+struct PlanStep {
+  const Pass* pass;
+  Block block;
+  std::uint32_t repeat;  ///< dispatches a frame
+  Range range;
+  Constants constants;
+};
+
+struct PlanBuffer {
+  BufferId id;
+  std::uint64_t bytes;
+};
+
+struct LeftOut {
+  std::string_view effect;
+  std::string reason;
+};
+
+struct Plan {
+  const Solver* solver;
+  std::uint32_t substeps;  ///< a full frame's
+  std::vector<PlanStep> steps;      ///< frame_start, substep, frame_end, in execution order
+  std::vector<PlanBuffer> buffers;  ///< ascending binding
+  std::vector<LeftOut> left_out;
+  std::uint64_t bytes() const;
+  std::uint64_t dispatches() const;  ///< a full frame's
+};
+
+Plan compile_plan(const Model& model, const Solver& solver);
+
+std::string describe(const Plan&, const Model&);  ///< for people
+std::string to_json(const Plan&, const Model&);   ///< {"steps","buffers","left_out","bytes"}
+
+}  // namespace weft

@@ -1,0 +1,100 @@
+// What a scene file can say, as plain data in SI units. An absent section is an effect that is not
+// simulated. Defaults are those of docs/scene-format.md; reading and checking live in reader.h.
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+enum class Orientation { vertical, horizontal };
+
+struct ClothSection {
+  double width_m = 1.0;
+  double height_m = 1.0;
+  std::uint32_t resolution = 64;  ///< particles along the width
+  Orientation orientation = Orientation::vertical;
+  glm::dvec3 center_m{0.0};
+  double imperfection_m = 0.0;
+};
+
+struct MaterialSection {
+  std::string preset;  ///< name in assets/materials, empty when none
+  double density_kg_m2 = 0.2;
+  double membrane_n_m = 1000.0;
+  std::optional<double> shear_n_m;  ///< absent: 3/8 of membrane (isotropic, Poisson 1/3)
+  double flex = 0.25;               ///< share of the membrane stiffness that the flex springs carry
+  double bend_n_m = 0.0;            ///< bending rigidity B [N·m]
+  double damping_s = 1e-4;
+  double damping_ratio_max = 0.1;
+
+  double shear() const { return shear_n_m.value_or(0.375 * membrane_n_m); }
+};
+
+struct PinSection {
+  glm::dvec2 at{0.0};  ///< fractions of width and real height; (0,0) is the top-left corner
+  double radius_m = 0.05;
+};
+
+struct GravitySection {
+  glm::dvec3 acceleration_m_s2{0.0, -9.81, 0.0};
+};
+
+struct AirSection {
+  double drag_kg_m2_s = 0.0;  ///< required in its section
+};
+
+struct WindSection {
+  glm::dvec3 velocity_m_s{0.0};  ///< required in its section
+  double gust = 0.0;
+  double period_s = 0.0;  ///< required when gust > 0
+};
+
+struct FloorSection {
+  double height_m = 0.0;
+  double friction = 0.0;
+};
+
+struct SphereSection {
+  glm::dvec3 center_m{0.0};
+  double radius_m = 0.0;  ///< required
+  glm::dvec3 velocity_m_s{0.0};
+  double friction = 0.0;
+};
+
+struct SelfCollisionSection {
+  double thickness_m = 0.0;  ///< required in its section
+};
+
+struct SolverSection {
+  std::string name = "leapfrog";
+  std::uint32_t substeps = 0;  ///< a frame; 0 = automatic, from the step bound
+  std::string precision = "f32";
+  double frame_s = 1.0 / 60.0;
+};
+
+/// Checks a scene makes of itself; the tests run them at `at_time` (default: the run's end).
+struct ExpectSection {
+  std::optional<double> max_stretch, p99_stretch, lowest_y_m, highest_y_m, energy_max_j, at_time_s;
+};
+
+struct Scene {
+  std::string title;
+  std::string source;  ///< path of the file, for messages
+  ClothSection cloth;
+  MaterialSection material;
+  std::vector<PinSection> pins;
+  std::optional<GravitySection> gravity;
+  std::optional<AirSection> air;
+  std::optional<WindSection> wind;
+  std::optional<FloorSection> floor;
+  std::vector<SphereSection> spheres;
+  std::optional<SelfCollisionSection> self_collision;
+  SolverSection solver;
+  std::optional<ExpectSection> expect;
+};
+
+}  // namespace weft

@@ -1,0 +1,61 @@
+// A running cloth: the plan interpreted on one device, frame by frame.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "model/model.h"
+#include "plan/plan.h"
+
+namespace weft {
+
+struct FrameStats {
+  std::uint32_t substeps = 0;
+  std::uint64_t dispatches = 0;
+  std::uint64_t spring_evaluations = 0;
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+  virtual const Model& model() const = 0;
+  virtual const Plan& plan() const = 0;
+  virtual std::string device_name() const = 0;
+  virtual double time_s() const = 0;
+  /// Advances by one frame of `frame_s` in `substeps` substeps (kick, drift and closing kick as the solver says).
+  virtual FrameStats advance(double frame_s, std::uint32_t substeps) = 0;
+  virtual State read() = 0;              ///< waits for the device
+  virtual void write(const State&) = 0;  ///< positions, velocities, time
+  virtual std::uint64_t bytes_allocated() const = 0;
+};
+
+/// The CPU reference in float ("f32") or double ("f64").
+std::unique_ptr<Simulation> make_cpu_simulation(const Model&, const Solver&, const std::string& precision);
+
+/// Runs `time_s` seconds: whole frames of scene.solver.frame_s, then one short frame (docs/cli.md).
+/// `after_frame` is called with the number of frames done and may return false to stop.
+template <class AfterFrame>
+void run_for(Simulation& simulation, double time_s, AfterFrame&& after_frame);
+
+/// The frames that `--time S` means: ⌊S/frame + 1e-6⌋ whole ones, then one short one when more is left.
+struct FramePlan {
+  std::uint64_t whole = 0;
+  double rest_s = 0.0;
+  std::uint32_t rest_substeps = 0;
+};
+FramePlan frames_for(double time_s, double frame_s, std::uint32_t substeps);
+
+template <class AfterFrame>
+void run_for(Simulation& simulation, double time_s, AfterFrame&& after_frame) {
+  const double frame_s = simulation.model().scene.solver.frame_s;
+  const std::uint32_t n = simulation.plan().substeps;
+  const FramePlan frames = frames_for(time_s, frame_s, n);
+  const std::uint64_t total = frames.whole + (frames.rest_substeps > 0 ? 1 : 0);
+  for (std::uint64_t f = 0; f < total; ++f) {
+    const bool whole = f < frames.whole;
+    const FrameStats stats = simulation.advance(whole ? frame_s : frames.rest_s, whole ? n : frames.rest_substeps);
+    if (!after_frame(f + 1, total, stats)) return;
+  }
+}
+
+}  // namespace weft
