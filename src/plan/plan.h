@@ -32,7 +32,7 @@ struct LeftOut {
 
 struct Plan {
   const Solver* solver;
-  std::uint32_t substeps;  ///< a full frame's
+  std::uint32_t substeps;           ///< a full frame's
   std::vector<PlanStep> steps;      ///< frame_start, substep, frame_end, in execution order
   std::vector<PlanBuffer> buffers;  ///< ascending binding
   std::vector<LeftOut> left_out;

@@ -1,0 +1,31 @@
+// How many bytes each buffer of the dictionary takes, and which buffers a pass touches.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "passes/pass.h"
+
+namespace weft {
+
+/// Frames whose tables may be in flight at once: each has its own copy of `params` and `substeps`, so that
+/// writing the next frame's never races with the one that runs.
+inline constexpr std::uint32_t kFrameSlots = 2;
+
+/// Rows of one substep table: the next power of two that holds n substeps and the closing kick, so that small
+/// changes of n keep the buffer.
+std::uint32_t substep_row_capacity(std::uint32_t substeps);
+
+/// vec4s from one row of the substep table to the next: its head and every sphere (shared/params.h).
+std::uint32_t substep_row_stride(const Model& model);
+
+/// Bytes of one copy of a buffer for this model and number of substeps a frame.
+std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t substeps);
+
+/// Copies there are of a buffer: kFrameSlots of what the host writes each frame, one of all else.
+std::uint32_t slot_count(BufferId id);
+
+/// The buffers a pass reads or writes, ascending; its shader's SPIR-V says the same (tests/sim holds them
+/// together).
+std::span<const BufferId> buffers_of(const Pass& pass);
+
+}  // namespace weft

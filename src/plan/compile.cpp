@@ -1,0 +1,135 @@
+// Model × Solver → Plan: which steps, over what, with which constants; the buffers they need; what was left
+// out and why.
+#include <set>
+
+#include "core/error.h"
+#include "plan/buffers.h"
+#include "plan/plan.h"
+
+namespace weft {
+namespace {
+
+Range whole_cloth(const Model& model) { return {.x = model.grid.nx, .y = model.grid.ny}; }
+Constants no_constants(const Model&) { return {}; }
+std::uint64_t no_springs(const Model&) { return 0; }
+
+/// Stands in the plan of a solver that is not a list of passes: the CPU reference runs its whole frame.
+const Pass cpu_reference_frame{
+    .name = "cpu_reference",
+    .about = "a whole frame on the CPU reference; this solver has no GPU passes",
+    .domain = whole_cloth,
+    .constants = no_constants,
+    .spring_evaluations = no_springs,
+    .mirror_f32 = nullptr,
+    .mirror_f64 = nullptr,
+    .tolerance = {.relative = 0, .absolute = 0},
+};
+
+std::string absent_section(std::string_view section) { return fmt::format("the scene has no {}", section); }
+
+struct Effect {
+  std::string_view constant, name;
+  std::string (*reason)(const Scene&);
+};
+
+/// Why an effect's constant is off, in the order of the constants.
+const Effect kEffects[] = {
+    {"shear", "shear springs", [](const Scene&) { return std::string("material.shear is 0"); }},
+    {"flex", "flex springs", [](const Scene&) { return std::string("material.flex is 0"); }},
+    {"bending", "bending", [](const Scene&) { return std::string("material.bend is 0"); }},
+    {"damping", "spring damping",
+     [](const Scene& s) {
+       return std::string(s.material.damping_s == 0 ? "material.damping is 0"
+                                                    : "material.damping_ratio_max is 0");
+     }},
+    {"air", "air drag",
+     [](const Scene& s) { return s.air ? std::string("air.drag is 0") : absent_section("[air]"); }},
+    {"wind", "wind",
+     [](const Scene& s) {
+       if (!s.wind) return absent_section("[wind]");
+       return std::string(s.air && s.air->drag_kg_m2_s > 0 ? "wind.velocity is 0" : "air.drag is 0");
+     }},
+    {"gravity", "gravity",
+     [](const Scene& s) {
+       return s.gravity ? std::string("gravity.acceleration is 0") : absent_section("[gravity]");
+     }},
+    {"floor", "floor contact", [](const Scene&) { return absent_section("[floor]"); }},
+    {"spheres", "sphere contact", [](const Scene&) { return absent_section("[[spheres]]"); }},
+    {"pins", "pins", [](const Scene&) { return absent_section("[[pins]]"); }},
+};
+
+std::vector<LeftOut> left_out_effects(const Model& model, const std::vector<PlanStep>& steps) {
+  std::vector<LeftOut> left_out;
+  for (const Effect& effect : kEffects) {
+    bool declared = false, on = false;
+    for (const PlanStep& step : steps)
+      for (const Constant& constant : step.constants)
+        if (constant.name == effect.constant) {
+          declared = true;
+          on = on || constant.value != 0;
+        }
+    if (declared && !on) left_out.push_back({effect.name, effect.reason(model.scene)});
+  }
+  left_out.push_back({"self-collision", absent_section("[self_collision]")});
+  return left_out;
+}
+
+std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t substeps,
+                                    const std::vector<PlanStep>& steps) {
+  std::set<BufferId> needed;
+  for (const PlanStep& step : steps) {
+    const auto touched = buffers_of(*step.pass);
+    needed.insert(touched.begin(), touched.end());
+  }
+  std::vector<PlanBuffer> buffers;
+  for (const BufferId id : needed) buffers.push_back({id, slot_bytes(id, model, substeps) * slot_count(id)});
+  return buffers;
+}
+
+std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::uint32_t substeps) {
+  std::vector<PlanStep> steps;
+  for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
+    for (const SolverStep& step : solver.steps) {
+      if (step.block != block) continue;
+      const Range range = step.pass->domain(model);
+      if (range.empty()) continue;
+      steps.push_back(
+          {step.pass, block, block == Block::substep ? substeps : 1, range, step.pass->constants(model)});
+    }
+  return steps;
+}
+
+}  // namespace
+
+Plan compile_plan(const Model& model, const Solver& solver) {
+  if (model.scene.self_collision)
+    throw error(
+        Exit::usage,
+        "{}: [self_collision] with thickness {} m: no pass for self-collision is available yet; remove the "
+        "section to simulate the cloth without it",
+        model.scene.source, model.scene.self_collision->thickness_m);
+  Plan plan{};
+  plan.solver = &solver;
+  plan.substeps = substeps_per_frame(model, solver);
+  if (solver.frame_f64 != nullptr || solver.steps.empty())
+    plan.steps = {{&cpu_reference_frame, Block::frame_start, 1, whole_cloth(model), {}}};
+  else
+    plan.steps = steps_for(model, solver, plan.substeps);
+  plan.buffers = buffers_for(model, plan.substeps, plan.steps);
+  plan.left_out = left_out_effects(model, plan.steps);
+  return plan;
+}
+
+std::uint64_t Plan::bytes() const {
+  std::uint64_t sum = 0;
+  for (const PlanBuffer& buffer : buffers) sum += buffer.bytes;
+  return sum;
+}
+
+std::uint64_t Plan::dispatches() const {
+  std::uint64_t sum = 0;
+  for (const PlanStep& step : steps) sum += step.repeat;
+  return sum;
+}
+
+}  // namespace weft

@@ -1,0 +1,94 @@
+// The plan on paper: a table for people, JSON for programs and goldens.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "plan/buffers.h"
+#include "plan/plan.h"
+
+namespace weft {
+namespace {
+
+std::string_view block_name(Block block) {
+  switch (block) {
+    case Block::frame_start: return "frame start";
+    case Block::substep: return "substep";
+    case Block::frame_end: return "frame end";
+  }
+  return "";
+}
+
+std::string byte_text(std::uint64_t bytes) {
+  if (bytes < 1024) return fmt::format("{} B", bytes);
+  if (bytes < 1024 * 1024) return fmt::format("{:.1f} KiB", static_cast<double>(bytes) / 1024);
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024));
+}
+
+std::string constants_text(const Constants& constants) {
+  std::string text;
+  for (const Constant& constant : constants)
+    if (constant.value != 0) text += fmt::format("{}{}", text.empty() ? "" : " ", constant.name);
+  return text.empty() ? "-" : text;
+}
+
+std::string buffer_note(BufferId id, const Model& model, const Plan& plan) {
+  if (id != BufferId::substeps) return std::string(row_of(id).unit);
+  return fmt::format("{}; {} copies of {} rows", row_of(id).unit, slot_count(id),
+                     slot_bytes(id, model, plan.substeps) / (16 * substep_row_stride(model)));
+}
+
+}  // namespace
+
+std::string describe(const Plan& plan, const Model& model) {
+  std::string text = fmt::format("{} - {} x {} particles, {} springs\n", model.scene.title, model.grid.nx,
+                                 model.grid.ny, model.spring_count);
+  text += fmt::format("solver {}: {} substeps a frame of {:.6g} s, {} dispatches\n\n", plan.solver->name,
+                      plan.substeps, model.scene.solver.frame_s, plan.dispatches());
+  text += fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", "block", "pass", "repeat", "range", "effects");
+  for (const PlanStep& step : plan.steps)
+    text +=
+        fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", block_name(step.block), step.pass->name, step.repeat,
+                    fmt::format("{} x {}", step.range.x, step.range.y), constants_text(step.constants));
+  if (!plan.solver->on_gpu)
+    text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",
+                        plan.solver->name);
+  text += fmt::format("\n{:<16} {:>12}  {}\n", "buffer", "bytes", "holds");
+  for (const PlanBuffer& buffer : plan.buffers)
+    text += fmt::format("{:<16} {:>12}  {}\n", row_of(buffer.id).name, buffer.bytes,
+                        buffer_note(buffer.id, model, plan));
+  text += fmt::format("{:<16} {:>12}  {}\n\nleft out:\n", "total", plan.bytes(), byte_text(plan.bytes()));
+  for (const LeftOut& left_out : plan.left_out)
+    text += fmt::format("  {:<16} {}\n", left_out.effect, left_out.reason);
+  return text;
+}
+
+std::string to_json(const Plan& plan, const Model& model) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["scene"] = model.scene.title;
+  json["solver"] = plan.solver->name;
+  json["on_gpu"] = plan.solver->on_gpu;
+  json["substeps"] = plan.substeps;
+  json["dispatches"] = plan.dispatches();
+  json["steps"] = Json::array();
+  for (const PlanStep& step : plan.steps) {
+    Json constants = Json::object();
+    for (const Constant& constant : step.constants)
+      constants[std::string(constant.name)] = constant.value != 0;
+    json["steps"].push_back({{"pass", step.pass->name},
+                             {"block", block_name(step.block)},
+                             {"repeat", step.repeat},
+                             {"range", {step.range.x, step.range.y}},
+                             {"constants", constants}});
+  }
+  json["buffers"] = Json::array();
+  for (const PlanBuffer& buffer : plan.buffers)
+    json["buffers"].push_back({{"name", row_of(buffer.id).name}, {"bytes", buffer.bytes}});
+  json["left_out"] = Json::array();
+  for (const LeftOut& left_out : plan.left_out)
+    json["left_out"].push_back({{"effect", left_out.effect}, {"reason", left_out.reason}});
+  json["bytes"] = plan.bytes();
+  return json.dump(2);
+}
+
+}  // namespace weft
