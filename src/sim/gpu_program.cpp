@@ -1,0 +1,142 @@
+// The plan's buffers and pipelines on a device, and how one of its steps is recorded.
+#include "sim/gpu_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "gpu/shader.h"
+
+namespace weft {
+namespace {
+
+/// Particles of the cloth at another resolution: the grid rule of docs/physics.md.
+std::uint64_t particles_at(const Scene& scene, std::uint32_t resolution) {
+  const double spacing_m = scene.cloth.width_m / (resolution - 1);
+  return resolution * static_cast<std::uint64_t>(std::llround(scene.cloth.height_m / spacing_m) + 1);
+}
+
+/// The module a step runs. The one place that may choose a variant for the device.
+std::string module_of(const Pass& pass) { return "passes/" + std::string(pass.name) + ".comp"; }
+
+VkBufferUsageFlags usage_of(BufferId id) {
+  constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  const bool drawn = id == BufferId::position || id == BufferId::position_next || id == BufferId::normal;
+  return drawn ? kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT : kStorage;
+}
+
+}  // namespace
+
+void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
+  const std::uint64_t range = device.limits().maxStorageBufferRange;
+  const std::uint64_t heap = device.info().memory_bytes;
+  std::uint64_t largest = 0, particle_bytes = 0;
+  for (const PlanBuffer& buffer : plan.buffers) {
+    largest = std::max(largest, buffer.bytes / slot_count(buffer.id));
+    if (slot_count(buffer.id) == 1) particle_bytes += row_of(buffer.id).element_bytes;
+  }
+  if (largest <= range && plan.bytes() <= heap) return;
+  const std::uint64_t fixed = plan.bytes() - particle_bytes * model.grid.count();
+  const std::uint64_t room = heap > fixed ? (heap - fixed) / particle_bytes : 0;
+  const std::uint64_t most = std::min(range / 16, room);
+  std::uint32_t fits = model.grid.nx;
+  while (fits > 2 && particles_at(model.scene, fits) > most) --fits;
+  throw error(Exit::no_device,
+              "{}: cloth.resolution {} needs {} bytes, {} of them in one buffer; {} has {} bytes and binds "
+              "at most {} "
+              "at once; the largest resolution that fits is {}",
+              model.scene.source, model.grid.nx, plan.bytes(), largest, device.info().name, heap, range,
+              fits);
+}
+
+GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan) {
+  require_fits(device, model, plan);
+  for (const PlanBuffer& wanted : plan.buffers) {
+    const std::uint32_t slots = slot_count(wanted.id);
+    std::vector<gpu::Buffer>& copies = buffers_[wanted.id];
+    for (std::uint32_t slot = 0; slot < slots; ++slot) {
+      std::string name(row_of(wanted.id).name);
+      if (slots > 1) name += "[" + std::to_string(slot) + "]";
+      copies.emplace_back(device, std::move(name), wanted.bytes / slots, usage_of(wanted.id),
+                          slots > 1 ? gpu::Memory::upload : gpu::Memory::device);
+    }
+  }
+}
+
+gpu::Buffer& GpuBuffers::at(BufferId id, std::uint32_t slot) {
+  std::vector<gpu::Buffer>& copies = buffers_.at(id);
+  return copies[copies.size() == 1 ? 0 : slot];
+}
+
+const gpu::Buffer& GpuBuffers::at(BufferId id, std::uint32_t slot) const {
+  const std::vector<gpu::Buffer>& copies = buffers_.at(id);
+  return copies[copies.size() == 1 ? 0 : slot];
+}
+
+std::uint64_t GpuBuffers::bytes() const {
+  std::uint64_t sum = 0;
+  for (const auto& [id, copies] : buffers_)
+    for (const gpu::Buffer& buffer : copies) sum += buffer.bytes();
+  return sum;
+}
+
+BufferId at_parity(BufferId id, Parity parity) {
+  if (parity == 0) return id;
+  switch (id) {
+    case BufferId::position: return BufferId::position_next;
+    case BufferId::position_next: return BufferId::position;
+    case BufferId::velocity: return BufferId::velocity_next;
+    case BufferId::velocity_next: return BufferId::velocity;
+    default: return id;
+  }
+}
+
+GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers) {
+  for (const PlanStep& step : plan.steps) {
+    const std::size_t kernel = kernel_for(device, step, buffers);
+    const std::uint32_t* local = kernels_[kernel].pipeline.reflection().local_size;
+    steps_.push_back(
+        {kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + local[1] - 1) / local[1]});
+  }
+}
+
+std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers) {
+  const std::string module = module_of(*step.pass);
+  std::vector<std::uint32_t> constants;
+  for (const Constant& constant : step.constants) constants.push_back(constant.value);
+  for (std::size_t k = 0; k < kernels_.size(); ++k)
+    if (kernels_[k].module == module && kernels_[k].constants == constants) return k;
+
+  Kernel kernel;
+  kernel.module = module;
+  kernel.constants = constants;
+  kernel.pipeline =
+      gpu::ComputePipeline(device, std::string(step.pass->name), gpu::load_spirv(module), kernel.constants);
+  const auto& bindings = kernel.pipeline.reflection().bindings;
+  for (const gpu::Binding& binding : bindings)
+    kernel.flips |= binding.writes && binding.binding == static_cast<std::uint32_t>(BufferId::position_next);
+  for (Parity parity = 0; parity < 2; ++parity)
+    for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot) {
+      std::vector<gpu::BoundBuffer> bound;
+      for (const gpu::Binding& binding : bindings)
+        bound.push_back({binding.binding, &buffers.at(at_parity(BufferId{binding.binding}, parity), slot)});
+      kernel.sets.emplace_back(device, kernel.pipeline, bound);
+    }
+  kernels_.push_back(std::move(kernel));
+  return kernels_.size() - 1;
+}
+
+bool GpuProgram::flips(std::size_t step) const { return kernels_[steps_[step].kernel].flips; }
+
+void GpuProgram::dispatch(gpu::Recorder& recorder, std::size_t step, Parity parity, std::uint32_t slot,
+                          std::uint32_t row) const {
+  const Step& place = steps_[step];
+  const Kernel& kernel = kernels_[place.kernel];
+  const bool takes_row = kernel.pipeline.reflection().push_constant_bytes > 0;
+  const auto push = std::as_bytes(std::span(&row, takes_row ? 1 : 0));
+  recorder.dispatch(kernel.pipeline, kernel.sets[parity * kFrameSlots + slot], place.groups_x, place.groups_y,
+                    push);
+}
+
+}  // namespace weft
