@@ -1,0 +1,119 @@
+// Turns options into scenes, models, devices and simulations; every command begins here.
+#include "cli/setup.h"
+
+#include <iostream>
+
+#include "cli/text.h"
+#include "core/error.h"
+#include "gpu/shader.h"
+#include "model/measures.h"
+
+namespace weft::cli {
+namespace {
+
+constexpr const char* kCpuCure = "run it with --device cpu";
+
+void check_precision(const Options& o, const Scene& scene, const Solver& solver) {
+  const std::string& precision = scene.solver.precision;
+  if (precision == "f32k")
+    throw error(Exit::usage,
+                "{}: precision is f32k; compensated sums are not part of this version; use f32, or "
+                "f64 with --device cpu",
+                scene.source);
+  if (o.on_cpu()) return;
+  if (precision == "f64")
+    throw error(Exit::usage, "{}: precision is f64; on a Vulkan device this version computes in f32; {}",
+                scene.source, kCpuCure);
+  if (!solver.on_gpu)
+    throw error(Exit::usage, "{}: solver {} runs on the CPU reference only; {}", scene.source, solver.name,
+                kCpuCure);
+}
+
+}  // namespace
+
+SceneOverrides overrides_of(const Options& o) {
+  SceneOverrides overrides{o.set};
+  auto& set = overrides.set;
+  if (o.resolution) set.push_back(fmt::format("cloth.resolution={}", *o.resolution));
+  if (o.material) set.push_back("material.preset=" + toml_string(*o.material));
+  if (o.solver) set.push_back("solver.name=" + toml_string(*o.solver));
+  if (o.substeps)
+    set.push_back(*o.substeps == 0 ? "solver.substeps=\"auto\""
+                                   : fmt::format("solver.substeps={}", *o.substeps));
+  if (o.precision) set.push_back("solver.precision=" + toml_string(*o.precision));
+  if (o.frame_s) set.push_back(fmt::format("solver.frame={:.17g}", *o.frame_s));
+  return overrides;
+}
+
+Scene open_scene(const Options& o, const std::string& number_name_or_path) {
+  LoadedScene loaded = load_scene(find_scene(number_name_or_path), overrides_of(o));
+  for (const std::string& warning : loaded.warnings) note(o, "warning: " + warning);
+  return std::move(loaded.scene);
+}
+
+Setup set_up(const Options& o, const std::string& number_name_or_path) {
+  const Scene scene = open_scene(o, number_name_or_path);
+  Setup setup{build_model(scene), &find_solver(scene.solver.name)};
+  check_precision(o, scene, *setup.solver);
+  return setup;
+}
+
+gpu::DeviceOptions device_options(const Options& o) {
+  gpu::DeviceOptions wanted;
+  wanted.choice = o.device;
+  wanted.validation = o.validation;
+  wanted.force_staging = o.force_staging;
+  return wanted;
+}
+
+std::unique_ptr<gpu::Device> open_device(const Options& o) {
+  if (o.device == "native")
+    throw Error(Exit::no_device,
+                "--device native: this version has no native backend; use --device cpu for the "
+                "reference, or a device of `weft devices`");
+  gpu::set_shader_dir(o.shaders);
+  return std::make_unique<gpu::Device>(device_options(o));
+}
+
+std::string device_label(const gpu::DeviceInfo& info) {
+  return info.software ? info.name + " (software)" : info.name;
+}
+
+Machine start(const Options& o, const Setup& setup) {
+  Machine machine;
+  if (o.on_cpu()) {
+    machine.simulation = make_cpu_simulation(setup.model, *setup.solver, setup.scene().solver.precision);
+    machine.device_label = machine.simulation->device_name();
+    return machine;
+  }
+  machine.device = open_device(o);
+  auto on_gpu = GpuSimulation::create(*machine.device, setup.model, *setup.solver);
+  machine.on_gpu = on_gpu.get();
+  machine.simulation = std::move(on_gpu);
+  machine.device_label = device_label(machine.device->info());
+  return machine;
+}
+
+void report_validation(const gpu::Device* device) {
+  if (device == nullptr || device->validation_messages().empty()) return;
+  for (const std::string& message : device->validation_messages()) std::cerr << message << '\n';
+  throw error(Exit::internal,
+              "the validation layer gave {} messages; this is a bug of Weft, please report it",
+              device->validation_messages().size());
+}
+
+void require_finite(const Model& model, const State& state, std::uint64_t frame) {
+  std::uint32_t particle = 0;
+  if (all_finite(state, &particle)) return;
+  throw error(
+      Exit::diverged,
+      "{}: the simulation diverged: after frame {} (t = {:.6g} s) particle {} (i = {}, j = {}) is not "
+      "finite; use more substeps (--substeps auto follows the stability limit)",
+      model.scene.source, frame, state.time_s, particle, particle % model.grid.nx, particle / model.grid.nx);
+}
+
+void note(const Options& o, const std::string& text) {
+  if (!o.quiet) std::cerr << "weft: " << text << '\n';
+}
+
+}  // namespace weft::cli

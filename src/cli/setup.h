@@ -1,0 +1,65 @@
+// From options to something that runs: the scene with its overrides, the model, the solver, the device.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "cli/options.h"
+#include "gpu/device.h"
+#include "model/model.h"
+#include "scene/reader.h"
+#include "sim/gpu_simulation.h"
+#include "sim/simulation.h"
+#include "solvers/solver.h"
+
+namespace weft::cli {
+
+/// A scene made ready: read, overridden, checked, built.
+struct Setup {
+  Model model;
+  const Solver* solver = nullptr;
+  const Scene& scene() const { return model.scene; }
+};
+
+/// A running cloth and, unless it runs on the CPU, the device below it.
+struct Machine {
+  std::unique_ptr<gpu::Device> device;  ///< null on the CPU; outlives the simulation
+  std::unique_ptr<Simulation> simulation;
+  GpuSimulation* on_gpu = nullptr;  ///< the simulation, unless it runs on the CPU
+  std::string device_label;         ///< as summaries name it; software devices say so
+};
+
+/// `--set` first, then the options that stand for one key each.
+SceneOverrides overrides_of(const Options&);
+
+/// Reads a scene and says its warnings on stderr (not with `--quiet`).
+/// @throws Error(Exit::usage)
+Scene open_scene(const Options&, const std::string& number_name_or_path);
+
+/// open_scene, then the model and the solver, with the precision checked against the device asked for.
+/// @throws Error(Exit::usage)
+Setup set_up(const Options&, const std::string& number_name_or_path);
+
+/// What the options say of the device.
+gpu::DeviceOptions device_options(const Options&);
+
+/// The device asked for.
+/// @throws Error(Exit::no_device) when there is no such device; there is no silent fallback
+std::unique_ptr<gpu::Device> open_device(const Options&);
+
+/// "llvmpipe (software)": a device's name, and plainly said when it is no GPU.
+std::string device_label(const gpu::DeviceInfo&);
+
+/// Builds the simulation on the CPU or on a Vulkan device.
+Machine start(const Options&, const Setup&);
+
+/// Prints validation messages on stderr.
+/// @throws Error(Exit::internal) when there is any: it is a mistake in Weft
+void report_validation(const gpu::Device*);
+
+/// @throws Error(Exit::diverged) naming frame, particle and cure when a number of the state is not finite
+void require_finite(const Model&, const State&, std::uint64_t frame);
+
+/// A line on stderr, unless `--quiet`.
+void note(const Options&, const std::string& text);
+
+}  // namespace weft::cli

@@ -1,0 +1,177 @@
+// `weft simulate`: runs a scene headless, sums it up in one line, writes its state, checks its [expect]
+// block.
+#include <chrono>
+#include <iostream>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "cli/setup.h"
+#include "cli/state_output.h"
+#include "cli/table.h"
+#include "model/measures.h"
+#include "sim/expect.h"
+
+namespace weft::cli {
+namespace {
+
+/// What a run leaves behind.
+struct Outcome {
+  State state;
+  double wall_s = 0.0;
+  std::uint64_t spring_evaluations = 0;
+  FrameStats frame;  ///< of the first frame
+  std::vector<Verdict> verdicts;
+};
+
+/// --time, else with --check the time at which the scene's checks are made, else 5 s.
+double run_time_s(const Options& o, const Scene& scene) {
+  if (!o.check) return o.time_or_default_s();
+  if (!scene.expect)
+    throw error(Exit::usage,
+                "{}: --check needs an [expect] block and the scene has none; add one "
+                "(for example max_stretch = 0.1)",
+                scene.source);
+  const double check_s = expect_time_s(scene, o.time_or_default_s());
+  const double run_s = o.time_s.value_or(check_s);
+  if (run_s < check_s)
+    throw error(Exit::usage,
+                "{}: expect.at_time is {} s and --time is {} s; the run must reach the check "
+                "(leave --time away)",
+                scene.source, check_s, run_s);
+  return run_s;
+}
+
+/// Called after every frame: looks for divergence, feeds the writer, makes the scene's checks when due.
+class FrameWatch {
+ public:
+  FrameWatch(const Options& o, const Setup& setup, double run_s, StateOutput* output)
+      : check_(o.check),
+        model_(setup.model),
+        output_(output),
+        check_s_(expect_time_s(setup.scene(), run_s) - 1e-6 * setup.scene().solver.frame_s) {}
+
+  void see(State state, std::uint64_t frame, Outcome& outcome) {
+    require_finite(model_, state, frame);
+    if (output_ != nullptr) output_->frame(state);
+    if (check_ && !checked_ && state.time_s >= check_s_) {
+      outcome.verdicts = check_expectations(model_, state);
+      checked_ = true;
+    }
+    outcome.state = std::move(state);
+  }
+
+ private:
+  bool check_, checked_ = false;
+  const Model& model_;
+  StateOutput* output_;
+  double check_s_;
+};
+
+Outcome simulate_scene(const Options& o, Simulation& simulation, double run_s, FrameWatch& watch) {
+  Outcome outcome;
+  const std::string& title = simulation.model().scene.title;
+  Progress progress(title.empty() ? "simulating" : title, o.quiet);
+  watch.see(simulation.read(), 0, outcome);
+  const auto began = std::chrono::steady_clock::now();
+  run_for(simulation, run_s, [&](std::uint64_t done, std::uint64_t total, const FrameStats& stats) {
+    if (done == 1) outcome.frame = stats;
+    outcome.spring_evaluations += stats.spring_evaluations;
+    watch.see(simulation.read(), done, outcome);
+    progress.show(done, total);
+    return !interrupted();
+  });
+  outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  if (interrupted())
+    throw error(Exit::interrupted, "interrupted at t = {:.6g} s; nothing was written", outcome.state.time_s);
+  return outcome;
+}
+
+nlohmann::ordered_json summary(const Setup& setup, const Machine& machine, const Outcome& outcome) {
+  const Stretch stretched = stretch(setup.model, outcome.state);
+  const double time_s = outcome.state.time_s;
+  return {{"device", machine.device_label},
+          {"solver", std::string(setup.solver->name)},
+          {"precision", setup.scene().solver.precision},
+          {"substeps", machine.simulation->plan().substeps},
+          {"time_s", time_s},
+          {"wall_s", outcome.wall_s},
+          {"spring_evaluations", outcome.spring_evaluations},
+          {"real_time_factor", outcome.wall_s > 0.0 ? time_s / outcome.wall_s : 0.0},
+          {"max_stretch", stretched.maximum},
+          {"p99_stretch", stretched.p99},
+          {"energy_j", energy(setup.model, outcome.state).total()},
+          {"hash", fmt::format("{:016x}", state_hash(outcome.state))}};
+}
+
+std::string human_line(const Scene& scene, const nlohmann::ordered_json& s) {
+  const std::string name = scene.title.empty() ? scene.source : scene.title;
+  return fmt::format(
+      "{} · {} · {} · {} · {} substeps · simulated {:.6g} s · wall {:.3g} s · real-time factor "
+      "{:.3g} · max stretch {:.3g} %\n",
+      name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
+      s["substeps"].get<std::uint32_t>(), s["time_s"].get<double>(), s["wall_s"].get<double>(),
+      s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>());
+}
+
+void print_summary(const Options& o, const Setup& setup, const nlohmann::ordered_json& fields) {
+  if (o.format == Format::human) return print_result(human_line(setup.scene(), fields));
+  if (o.format == Format::json) return print_result(fields.dump(2) + '\n');
+  Table table;
+  table.rows.emplace_back();
+  for (const auto& [key, value] : fields.items()) {
+    table.columns.push_back(key);
+    table.rows[0].push_back(value);
+  }
+  print_result(to_text(table, Format::csv));
+}
+
+/// What was recorded and allocated, beside what the plan says of a full frame.
+void print_details(const Machine& machine, const Outcome& outcome) {
+  const Plan& plan = machine.simulation->plan();
+  std::cerr << fmt::format(
+                   "weft: dispatches recorded {} in a frame of {} substeps; plan: {} in a frame of {}\n",
+                   outcome.frame.dispatches, outcome.frame.substeps, plan.dispatches(), plan.substeps)
+            << fmt::format("weft: bytes allocated {}; plan: {}\n", machine.simulation->bytes_allocated(),
+                           plan.bytes());
+}
+
+Exit run(const Options& o) {
+  const Setup setup = set_up(o, only_scene(o));
+  const double run_s = run_time_s(o, setup.scene());
+  std::unique_ptr<StateOutput> output;
+  stop_between_frames();
+  if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model, run_s);
+  Machine machine = start(o, setup);
+  FrameWatch watch(o, setup, run_s, output.get());
+  const Outcome outcome = simulate_scene(o, *machine.simulation, run_s, watch);
+  report_validation(machine.device.get());
+  if (output) output->finish(outcome.state);
+  print_summary(o, setup, summary(setup, machine, outcome));
+  if (o.verbose) print_details(machine, outcome);
+  if (!o.check) return Exit::ok;
+  const std::string verdicts = describe(outcome.verdicts);
+  if (o.format == Format::human)
+    print_result(verdicts);
+  else
+    std::cerr << verdicts;
+  return all_hold(outcome.verdicts) ? Exit::ok : Exit::tolerance;
+}
+
+void add_options(CLI::App& app, Options& o) {
+  add_scene(app, o);
+  add_out(app, o, "write the final state: .csv, .ply or .obj; .pc2 holds every frame");
+  app.add_flag("--check", o.check,
+               "hold the scene's [expect] block against the result; exit 5 when it is broken");
+}
+
+}  // namespace
+
+const Command simulate{"simulate", "runs a scene without pictures and sums it up",
+                       "  weft simulate 1 --time 2\n"
+                       "  weft simulate 4 --device cpu --precision f64 --time 0.5 --out state.csv\n"
+                       "  weft simulate 1 --set wind.velocity=[0,0,5] --time 1 --format json\n"
+                       "  weft simulate 2 --check",
+                       add_options, run};
+
+}  // namespace weft::cli

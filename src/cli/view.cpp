@@ -1,0 +1,39 @@
+// `weft view`, also plain `weft`: the window. The one place where src/viewer is hooked in; CMake defines
+// WEFT_HAS_VIEWER when it builds the library weft_viewer.
+#include "cli/command.h"
+#include "cli/setup.h"
+#ifdef WEFT_HAS_VIEWER
+#include "viewer/viewer.h"
+#endif
+
+namespace weft::cli {
+namespace {
+
+#ifdef WEFT_HAS_VIEWER
+Exit run(const Options& o) {
+  ViewerOptions window;
+  if (!o.scenes.empty()) window.scene = o.scenes.front();
+  window.overrides = overrides_of(o);
+  window.device = o.device;
+  window.validation = o.validation;
+  window.force_staging = o.force_staging;
+  window.shader_dir = o.shaders;
+  return static_cast<Exit>(run_viewer(window));
+}
+#else
+/// @throws Error(Exit::usage), after checking that the word is a scene: a mistyped command is said to be one
+Exit run(const Options& o) {
+  if (!o.scenes.empty()) find_scene(o.scenes.front());
+  const std::string scene = o.scenes.empty() ? "1" : o.scenes.front();
+  throw error(Exit::usage,
+              "the window is not part of this build; instead, `weft render {0} --out picture.png "
+              "--time 2` draws, `weft simulate {0}` computes, and `weft --help` lists every command",
+              scene);
+}
+#endif
+
+}  // namespace
+
+const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_scene, run};
+
+}  // namespace weft::cli
