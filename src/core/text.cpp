@@ -22,7 +22,7 @@ bool begins_with(std::string_view text, std::string_view start) {
 
 std::string short_number(double value) { return fmt::format("{:g}", value); }
 
-std::string quoted(std::string_view text, std::size_t limit) {
+std::string in_quotes(std::string_view text, std::size_t limit) {
   std::size_t cut = std::min(text.size(), limit);
   // A UTF-8 letter is never cut in two: continuation bytes are 10xxxxxx.
   while (cut < text.size() && cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;

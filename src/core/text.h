@@ -10,7 +10,7 @@ namespace weft {
 std::string short_number(double value);
 
 /// Text in double quotes, control bytes replaced by '?', cut after `limit` bytes with "…".
-std::string quoted(std::string_view text, std::size_t limit = 40);
+std::string in_quotes(std::string_view text, std::size_t limit = 40);
 
 /// Letters to insert, delete, change or swap with their neighbour to turn one word into the other, case
 /// ignored.

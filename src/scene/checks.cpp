@@ -1,0 +1,104 @@
+// What single keys cannot tell: required keys, contradictions, and starts that look like mistakes.
+#include "core/error.h"
+#include "core/text.h"
+#include "scene/grid_rule.h"
+#include "scene/settings.h"
+#include "shared/params.h"
+
+namespace weft {
+namespace {
+
+void check_required(const Draft& draft) {
+  for (const Parameter& parameter : parameters()) {
+    if (!parameter.required) continue;
+    for (std::size_t item = 0; item < item_count(draft.scene, parameter.section); ++item) {
+      const Target target{parameter.section, item};
+      if (draft.is_given(target, parameter.key)) continue;
+      throw error(Exit::usage, "{}: {} is missing; it must be {} ({})", draft.place_of(target),
+                  full_key(target, parameter.key), rule_text(parameter), parameter.example);
+    }
+  }
+}
+
+void check_rows(const Draft& draft) {
+  const ClothSection& cloth = draft.scene.cloth;
+  const double rows = rows_along_height(cloth);
+  if (rows >= 2.0 && rows <= 4096.0) return;
+  const bool is_flat = rows < 2.0;
+  const char* key = draft.is_given({"cloth"}, "height") ? "height" : "resolution";
+  throw error(Exit::usage,
+              "{}: cloth.height {} m is {} particles at {} along {} m; it must be 2 to 4096 ({} "
+              "cloth.resolution or {} "
+              "cloth.height)",
+              draft.place_of({"cloth"}, key), short_number(cloth.height_m), short_number(rows),
+              cloth.resolution, short_number(cloth.width_m), is_flat ? "raise" : "lower",
+              is_flat ? "raise" : "lower");
+}
+
+void check_pins(const Draft& draft) {
+  for (std::size_t k = 0; k < draft.scene.pins.size(); ++k) {
+    const PinSection& pin = draft.scene.pins[k];
+    const double nearest_m = nearest_particle_m(draft.scene.cloth, pin.at);
+    if (nearest_m <= pin_reach_m(pin)) continue;
+    const Target target{"pins", k};
+    const char* key = draft.is_given(target, "radius") ? "radius" : "at";
+    throw error(
+        Exit::usage,
+        "{}: pins.{}.radius is {} m at {}; it must hold a particle, and the nearest is {} m away (raise the "
+        "radius or cloth.resolution)",
+        draft.place_of(target, key), k, short_number(pin.radius_m), value_text(ParameterValue(pin.at)),
+        short_number(nearest_m));
+  }
+}
+
+void check_wind(const Draft& draft) {
+  const auto& wind = draft.scene.wind;
+  if (!wind) return;
+  if (!draft.scene.air)
+    throw error(Exit::usage,
+                "{}: [wind] needs [air]; it must have air to act through (add [air] with drag = 0.1)",
+                draft.place_of({"wind"}));
+  if (wind->gust > 0.0 && wind->period_s <= 0.0)
+    throw error(Exit::usage,
+                "{}: wind.gust is {} without a period; it must have one (add wind.period = 2, in s)",
+                draft.place_of({"wind"}, "gust"), short_number(wind->gust));
+}
+
+void check_spheres(const Draft& draft) {
+  if (draft.scene.spheres.size() <= shared::kMaxSpheres) return;
+  throw error(Exit::usage, "{}: there are {} spheres; it must be at most {} (remove some)",
+              draft.place_of({"spheres", shared::kMaxSpheres}), draft.scene.spheres.size(),
+              shared::kMaxSpheres);
+}
+
+}  // namespace
+
+void check_scene(const Draft& draft) {
+  check_required(draft);
+  check_rows(draft);
+  check_pins(draft);
+  check_wind(draft);
+  check_spheres(draft);
+}
+
+std::vector<std::string> scene_warnings(const Draft& draft) {
+  const Scene& scene = draft.scene;
+  const double half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
+  std::vector<std::string> warnings;
+  if (scene.air && scene.wind && scene.air->drag_kg_m2_s == 0.0)
+    warnings.push_back(
+        fmt::format("{}: air.drag is 0, so the wind moves nothing", draft.place_of({"air"}, "drag")));
+  if (!scene.floor && scene.spheres.empty()) return warnings;
+
+  const StartDepths depths = start_depths(scene, half_thickness_m);
+  if (depths.floor_m > 0.0)
+    warnings.push_back(fmt::format("{}: the cloth starts up to {} m below the floor; raise cloth.center",
+                                   draft.place_of({"floor"}, "height"), short_number(depths.floor_m)));
+  for (std::size_t k = 0; k < depths.sphere_m.size(); ++k)
+    if (depths.sphere_m[k] > 0.0)
+      warnings.push_back(fmt::format("{}: the cloth starts up to {} m inside spheres.{}; move one of them",
+                                     draft.place_of({"spheres", k}), short_number(depths.sphere_m[k]), k));
+  return warnings;
+}
+
+}  // namespace weft

@@ -1,0 +1,160 @@
+// Looking up parameters and sections, and saying a parameter's rule in words.
+#include "scene/parameters.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/text.h"
+
+namespace weft {
+namespace {
+
+constexpr std::string_view kSections[] = {"cloth", "material", "pins",           "gravity", "air",   "wind",
+                                          "floor", "spheres",  "self_collision", "solver",  "expect"};
+
+/// Applies `act` to the optional or list that stands for a section; nothing for sections that always stand.
+template <class AnyScene, class Act>
+void with_section(AnyScene& scene, std::string_view section, Act&& act) {
+  if (section == "pins") return act(scene.pins);
+  if (section == "spheres") return act(scene.spheres);
+  if (section == "gravity") return act(scene.gravity);
+  if (section == "air") return act(scene.air);
+  if (section == "wind") return act(scene.wind);
+  if (section == "floor") return act(scene.floor);
+  if (section == "self_collision") return act(scene.self_collision);
+  if (section == "expect") return act(scene.expect);
+}
+
+template <class T>
+std::size_t count_of(const std::optional<T>& section) {
+  return section.has_value() ? 1 : 0;
+}
+template <class T>
+std::size_t count_of(const std::vector<T>& section) {
+  return section.size();
+}
+
+template <class T>
+void add_to(std::optional<T>& section) {
+  if (!section) section.emplace();
+}
+template <class T>
+void add_to(std::vector<T>& section) {
+  section.emplace_back();
+}
+
+template <class T>
+void clear(std::optional<T>& section) {
+  section.reset();
+}
+template <class T>
+void clear(std::vector<T>& section) {
+  section.clear();
+}
+
+std::string words_text(std::string_view words) {
+  std::string text;
+  std::size_t start = 0;
+  while (start <= words.size()) {
+    const std::size_t bar = std::min(words.find('|', start), words.size());
+    if (!text.empty()) text += bar == words.size() ? " or " : ", ";
+    text += in_quotes(words.substr(start, bar - start));
+    start = bar + 1;
+  }
+  return text;
+}
+
+bool is_listed(std::string_view words, std::string_view word) {
+  if (words.empty()) return true;
+  return !word.empty() && word.find('|') == std::string_view::npos &&
+         fmt::format("|{}|", words).find(fmt::format("|{}|", word)) != std::string::npos;
+}
+
+std::string range_text(const Parameter& p) {
+  if (!p.exclusive_minimum) return fmt::format("{} to {}", short_number(p.minimum), short_number(p.maximum));
+  return fmt::format("greater than {}, at most {}", short_number(p.minimum), short_number(p.maximum));
+}
+
+bool in_range(const Parameter& p, double value) {
+  if (!(value <= p.maximum)) return false;  // catches NaN
+  return p.exclusive_minimum ? value > p.minimum : value >= p.minimum;
+}
+
+bool is_allowed(const Parameter& p, const ParameterValue& value) {
+  using enum ParameterKind;
+  if (const auto* text = std::get_if<std::string>(&value))
+    return (p.kind == word || !p.words.empty()) && is_listed(p.words, *text);
+  if (const auto* number_value = std::get_if<double>(&value)) {
+    if (p.kind != number && p.kind != integer) return false;
+    return in_range(p, *number_value) && (p.kind != integer || *number_value == std::floor(*number_value));
+  }
+  if (const auto* two = std::get_if<glm::dvec2>(&value))
+    return p.kind == vec2 && in_range(p, two->x) && in_range(p, two->y);
+  const auto& three = std::get<glm::dvec3>(value);
+  return p.kind == vec3 && in_range(p, three.x) && in_range(p, three.y) && in_range(p, three.z);
+}
+
+}  // namespace
+
+const Parameter* find_parameter(std::string_view section, std::string_view key) {
+  for (const Parameter& parameter : parameters())
+    if (parameter.section == section && parameter.key == key) return &parameter;
+  return nullptr;
+}
+
+std::span<const std::string_view> section_names() { return kSections; }
+
+bool is_list_section(std::string_view section) { return section == "pins" || section == "spheres"; }
+
+std::size_t item_count(const Scene& scene, std::string_view section) {
+  std::size_t count = 1;
+  with_section(scene, section, [&](const auto& part) { count = count_of(part); });
+  return count;
+}
+
+bool has_section(const Scene& scene, std::string_view section) { return item_count(scene, section) > 0; }
+
+void add_section(Scene& scene, std::string_view section) {
+  with_section(scene, section, [](auto& part) { add_to(part); });
+}
+
+void remove_section(Scene& scene, std::string_view section) {
+  with_section(scene, section, [](auto& part) { clear(part); });
+}
+
+std::string value_text(const ParameterValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return in_quotes(*text);
+  if (const auto* number = std::get_if<double>(&value)) return short_number(*number);
+  if (const auto* two = std::get_if<glm::dvec2>(&value))
+    return fmt::format("[{}, {}]", short_number(two->x), short_number(two->y));
+  const auto& three = std::get<glm::dvec3>(value);
+  return fmt::format("[{}, {}, {}]", short_number(three.x), short_number(three.y), short_number(three.z));
+}
+
+std::string default_text(const Parameter& parameter) {
+  if (parameter.required) return "required";
+  if (!parameter.default_text.empty()) return std::string(parameter.default_text);
+  Scene scene;
+  add_section(scene, parameter.section);
+  return value_text(parameter.get(scene, 0));
+}
+
+std::string rule_text(const Parameter& p) {
+  using enum ParameterKind;
+  if (p.kind == word) return p.words.empty() ? "a word in quotes" : words_text(p.words);
+  std::string text = range_text(p);
+  if (p.kind == integer) text += ", a whole number";
+  if (p.kind == vec2) text = "two numbers, each " + text;
+  if (p.kind == vec3) text = "three numbers, each " + text;
+  if (!p.unit.empty()) text += fmt::format(", in {}", p.unit);
+  if (!p.words.empty()) text += ", or " + words_text(p.words);
+  return text;
+}
+
+std::string broken_rule(const Parameter& parameter, const ParameterValue& value) {
+  if (is_allowed(parameter, value)) return {};
+  return fmt::format("it must be {} ({})", rule_text(parameter), parameter.example);
+}
+
+}  // namespace weft
