@@ -1,0 +1,75 @@
+// Prerecorded command buffers: a frame's dispatches cut into chunks.
+#include "sim/frame_commands.h"
+
+#include <fmt/format.h>
+
+namespace weft {
+
+DispatchOrder::DispatchOrder(const Plan& plan, std::uint32_t substeps) : substeps_(substeps) {
+  std::uint32_t end = 0;
+  for (const PlanStep& step : plan.steps) {
+    start_ += step.block == Block::frame_start ? 1 : 0;
+    block_ += step.block == Block::substep ? 1 : 0;
+    end += step.block == Block::frame_end ? 1 : 0;
+  }
+  count_ = start_ + block_ * substeps + end;
+}
+
+DispatchOrder::Dispatch DispatchOrder::operator[](std::uint32_t place) const {
+  if (place < start_) return {place, 0};
+  const std::uint32_t inside = place - start_;
+  if (inside < block_ * substeps_) return {start_ + inside % block_, inside / block_};
+  return {start_ + block_ + (inside - block_ * substeps_), substeps_};
+}
+
+bool DispatchOrder::independent_of_substeps(std::uint32_t first, std::uint32_t count) const {
+  return first + count <= start_ + block_ * substeps_;
+}
+
+FrameCommands::Chunk& FrameCommands::chunk(const ChunkKey& key, const DispatchOrder& order) {
+  std::unique_ptr<Chunk>& chunk = chunks_[key];
+  if (!chunk) {
+    chunk = record(key, order);
+    ++recorded_;
+  }
+  return *chunk;
+}
+
+std::unique_ptr<FrameCommands::Chunk> FrameCommands::record(const ChunkKey& key,
+                                                            const DispatchOrder& order) const {
+  auto chunk = std::make_unique<Chunk>();
+  for (std::uint32_t place = key.first; place < key.first + key.count; ++place)
+    if (const std::size_t step = order[place].step; chunk->runs.empty() || chunk->runs.back() != step)
+      chunk->runs.push_back(step);
+  const std::string name = fmt::format("dispatches {} to {}", key.first, key.first + key.count - 1);
+  chunk->commands = gpu::Commands(device_, name, gpu::Reuse::many);
+  const VkCommandBuffer commands = chunk->commands.begin();
+  chunk->timer = std::make_unique<gpu::Timer>(device_, static_cast<std::uint32_t>(chunk->runs.size() + 1));
+  chunk->timer->reset(commands);
+  chunk->timer->stamp(commands, 0);
+  {
+    gpu::Recorder recorder(device_, commands);
+    Parity parity = key.parity;
+    std::uint32_t run = 0;
+    for (std::uint32_t place = key.first; place < key.first + key.count; ++place) {
+      const auto [step, row] = order[place];
+      if (place == key.first) recorder.label(plan_.steps[step].pass->name);
+      if (step != chunk->runs[run]) {
+        recorder.end_label();
+        chunk->timer->stamp(commands, ++run);
+        recorder.label(plan_.steps[step].pass->name);
+      }
+      program_.dispatch(recorder, step, parity, key.slot, row);
+      if (program_.flips(step)) parity ^= 1u;
+    }
+    recorder.end_label();
+    chunk->timer->stamp(commands, run + 1);
+    recorder.finish();
+    chunk->parity_after = parity;
+    chunk->dispatches = static_cast<std::uint32_t>(recorder.dispatch_count());
+  }
+  chunk->commands.end();
+  return chunk;
+}
+
+}  // namespace weft

@@ -1,0 +1,68 @@
+// Prerecorded command buffers: a frame's dispatches cut into chunks, each recorded once and submitted as
+// often as the same chunk comes again.
+#pragma once
+#include <compare>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "gpu/commands.h"
+#include "sim/gpu_program.h"
+
+namespace weft {
+
+/// A frame's dispatches in order: frame start, the substep block n times, frame end.
+class DispatchOrder {
+ public:
+  struct Dispatch {
+    std::size_t step;   ///< in the plan
+    std::uint32_t row;  ///< of the substep table: the substep, or n after the last
+  };
+  DispatchOrder(const Plan& plan, std::uint32_t substeps);
+  std::uint32_t count() const { return count_; }
+  Dispatch operator[](std::uint32_t place) const;
+  /// Whether [first, first + count) lies where the order does not depend on n.
+  bool independent_of_substeps(std::uint32_t first, std::uint32_t count) const;
+
+ private:
+  std::uint32_t start_ = 0, block_ = 0, substeps_ = 0, count_ = 0;  // dispatches before; of one substep
+};
+
+/// What makes two chunks the same commands.
+struct ChunkKey {
+  std::uint32_t slot, parity, first, count;
+  std::uint32_t substeps;  ///< 0 where the commands do not depend on it
+  auto operator<=>(const ChunkKey&) const = default;
+};
+
+class FrameCommands {
+ public:
+  /// A recorded chunk with its timestamps: one more than it has runs of the same plan step.
+  struct Chunk {
+    gpu::Commands commands;
+    std::unique_ptr<gpu::Timer> timer;
+    std::vector<std::size_t> runs;  ///< the plan step of each run
+    std::uint32_t dispatches = 0;   ///< counted while recording
+    Parity parity_after = 0;
+  };
+
+  FrameCommands(gpu::Device& device, const Plan& plan, const GpuProgram& program)
+      : device_(device), plan_(plan), program_(program) {}
+  /// The chunk's commands, recorded now if they are new.
+  Chunk& chunk(const ChunkKey& key, const DispatchOrder& order);
+  bool crowded() const { return chunks_.size() > kMostChunks; }
+  /// Lets go of everything recorded; the device must be done with all of it.
+  void clear() { chunks_.clear(); }
+  std::size_t recorded() const { return recorded_; }  ///< chunks recorded so far
+
+ private:
+  static constexpr std::size_t kMostChunks = 512;
+  std::unique_ptr<Chunk> record(const ChunkKey& key, const DispatchOrder& order) const;
+  gpu::Device& device_;
+  const Plan& plan_;
+  const GpuProgram& program_;
+  std::map<ChunkKey, std::unique_ptr<Chunk>> chunks_;
+  std::size_t recorded_ = 0;
+};
+
+}  // namespace weft

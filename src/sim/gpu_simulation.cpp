@@ -1,0 +1,219 @@
+// The plan on a Vulkan device: each frame writes its slot's table, submits the recorded chunks, and returns;
+// the slot's turn comes again when the device is done with it.
+#include "sim/gpu_simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "core/error.h"
+#include "passes/tables.h"
+#include "sim/frame_commands.h"
+#include "sim/perturb.h"
+#include "sim/submit_pacer.h"
+
+namespace weft {
+namespace {
+
+const Solver& require_gpu(const Solver& solver) {
+  if (!solver.on_gpu)
+    throw error(Exit::usage,
+                "solver.name is \"{}\"; it has no GPU passes and runs on the CPU reference only "
+                "(--device cpu, or a solver such as leapfrog)",
+                solver.name);
+  return solver;
+}
+
+class VulkanSimulation final : public GpuSimulation {
+ public:
+  VulkanSimulation(gpu::Device& device, const Model& model, const Solver& solver,
+                   const GpuSimulationOptions& options)
+      : device_(device),
+        model_(model),
+        plan_(compile_plan(model_, require_gpu(solver))),
+        perturbation_(options.perturb, plan_),
+        program_plan_(perturbed(plan_, perturbation_)),
+        buffers_(device, model_, plan_),
+        program_(device, program_plan_, buffers_),
+        commands_(device, plan_, program_),
+        pacer_(options.dispatches_per_submit) {
+    shared::Params params = make_params(model_);
+    perturbation_.apply(model_, params);
+    for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
+      buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
+    write(start_state(model_));
+  }
+  ~VulkanSimulation() override {
+    try {
+      wait();
+    } catch (...) {  // a lost device has nothing left to wait for
+    }
+  }
+  VulkanSimulation(const VulkanSimulation&) = delete;
+  VulkanSimulation& operator=(const VulkanSimulation&) = delete;
+
+  const Model& model() const override { return model_; }
+  const Plan& plan() const override { return plan_; }
+  std::string device_name() const override { return device_.info().name; }
+  double time_s() const override { return time_s_; }
+  std::uint64_t bytes_allocated() const override { return buffers_.bytes(); }
+  std::uint32_t submit_count() const override { return submits_; }
+  std::vector<double> step_ms() const override { return step_ms_; }
+  DrawBuffers draw_buffers() const override {
+    return {buffers_.at(at_parity(BufferId::position, parity_)).handle(),
+            buffers_.has(BufferId::normal) ? buffers_.at(BufferId::normal).handle() : VK_NULL_HANDLE};
+  }
+  void wait() override {
+    for (Slot& slot : slots_) finish(slot);
+  }
+
+  FrameStats advance(double frame_s, std::uint32_t substeps) override;
+  State read() override;
+  void write(const State&) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Slot {
+    std::vector<FrameCommands::Chunk*> chunks;  // of the frame that runs in it
+    std::uint64_t last_submit = 0;
+    Clock::time_point start;
+    std::vector<double> step_ms;  // of the frame so far
+  };
+  static Plan perturbed(Plan plan, const Perturbation& perturbation) {
+    perturbation.apply(plan);
+    return plan;
+  }
+  void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
+  void submit(FrameCommands::Chunk& chunk, Slot& slot);
+  void finish(Slot& slot);
+  void refresh_normals();
+
+  gpu::Device& device_;
+  Model model_;
+  Plan plan_;
+  Perturbation perturbation_;
+  Plan program_plan_;
+  GpuBuffers buffers_;
+  GpuProgram program_;
+  FrameCommands commands_;
+  SubmitPacer pacer_;
+  std::array<Slot, kFrameSlots> slots_;
+  std::vector<shared::vec4> table_;
+  std::vector<double> step_ms_;
+  Parity parity_ = 0;
+  std::uint64_t frames_ = 0;
+  std::uint32_t submits_ = 0;
+  double time_s_ = 0;
+};
+
+void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
+  const std::vector<KickDrift> rows = plan_.solver->schedule(time_s_, frame_s, substeps);
+  fill_substep_rows(model_, rows, table_);
+  perturbation_.apply(table_, substep_row_stride(model_));
+  gpu::Buffer& table = buffers_.at(BufferId::substeps, slot);
+  if (table_.size() * sizeof(shared::vec4) > table.bytes())
+    throw error(Exit::internal,
+                "a frame of {} substeps needs {} rows; the plan of {} substeps has room for {}", substeps,
+                rows.size(), plan_.substeps, substep_row_capacity(plan_.substeps));
+  table.write(std::as_bytes(std::span(table_)));
+}
+
+void VulkanSimulation::submit(FrameCommands::Chunk& chunk, Slot& slot) {
+  if (slot.chunks.empty()) slot.start = Clock::now();
+  slot.last_submit = device_.submit(chunk.commands.handle());
+  slot.chunks.push_back(&chunk);
+  parity_ = chunk.parity_after;
+  ++submits_;
+}
+
+/// Waits for what the slot runs and adds its timings to the frame's.
+void VulkanSimulation::finish(Slot& slot) {
+  if (slot.chunks.empty()) return;
+  device_.wait(slot.last_submit);
+  double total_ms = 0;
+  std::uint32_t dispatches = 0;
+  for (const FrameCommands::Chunk* chunk : slot.chunks) {
+    dispatches += chunk->dispatches;
+    for (std::uint32_t run = 0; run < chunk->runs.size() && device_.info().timestamps; ++run) {
+      const double ms = std::max(chunk->timer->between_ms(run, run + 1), 0.0);
+      slot.step_ms[chunk->runs[run]] += ms;
+      total_ms += ms;
+    }
+  }
+  if (device_.info().timestamps)
+    step_ms_ = slot.step_ms;
+  else  // the wall clock is an upper bound: the submits also waited for others
+    total_ms = std::chrono::duration<double, std::milli>(Clock::now() - slot.start).count();
+  pacer_.measured(dispatches, total_ms);
+  slot.chunks.clear();
+}
+
+FrameStats VulkanSimulation::advance(double frame_s, std::uint32_t substeps) {
+  if (commands_.crowded()) {
+    wait();
+    commands_.clear();
+  }
+  const std::uint32_t slot_index = static_cast<std::uint32_t>(frames_++ % kFrameSlots);
+  Slot& slot = slots_[slot_index];
+  finish(slot);
+  slot.step_ms.assign(plan_.steps.size(), 0.0);
+  write_table(frame_s, substeps, slot_index);
+
+  FrameStats stats{.substeps = substeps, .dispatches = 0, .spring_evaluations = 0};
+  const DispatchOrder order(plan_, substeps);
+  submits_ = 0;
+  for (std::uint32_t first = 0; first < order.count();) {
+    const std::uint32_t count = std::min(pacer_.chunk(), order.count() - first);
+    const std::uint32_t n = order.independent_of_substeps(first, count) ? 0 : substeps;
+    FrameCommands::Chunk& chunk = commands_.chunk({slot_index, parity_, first, count, n}, order);
+    submit(chunk, slot);
+    stats.dispatches += chunk.dispatches;
+    first += count;
+    if (pacer_.learning()) finish(slot);
+  }
+  for (std::uint32_t place = 0; place < order.count(); ++place)
+    stats.spring_evaluations += plan_.steps[order[place].step].pass->spring_evaluations(model_);
+  time_s_ += frame_s;
+  return stats;
+}
+
+State VulkanSimulation::read() {
+  wait();
+  HostBuffers<float> host;
+  for (const BufferId id : {BufferId::position, BufferId::velocity}) {
+    host[id].resize(model_.grid.count());
+    buffers_.at(at_parity(id, parity_)).read(std::as_writable_bytes(std::span(host[id])));
+  }
+  return store_state(host, time_s_);
+}
+
+void VulkanSimulation::write(const State& state) {
+  wait();
+  HostBuffers<float> host;
+  load_state(model_, state, host);
+  for (const BufferId id : {BufferId::position, BufferId::velocity})
+    buffers_.at(at_parity(id, parity_)).write(std::as_bytes(std::span(host[id])));
+  time_s_ = state.time_s;
+  refresh_normals();
+}
+
+/// What is drawn before the first frame, or after a write, needs the normals of that state.
+void VulkanSimulation::refresh_normals() {
+  device_.run_once([&](VkCommandBuffer commands) {
+    gpu::Recorder recorder(device_, commands);
+    for (std::size_t step = 0; step < plan_.steps.size(); ++step)
+      if (plan_.steps[step].block == Block::frame_end && !program_.flips(step))
+        program_.dispatch(recorder, step, parity_, 0, 0);
+    recorder.finish();
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<GpuSimulation> GpuSimulation::create(gpu::Device& device, const Model& model,
+                                                     const Solver& solver,
+                                                     const GpuSimulationOptions& options) {
+  return std::make_unique<VulkanSimulation>(device, model, solver, options);
+}
+
+}  // namespace weft
