@@ -10,7 +10,7 @@ cd "$1"
 declare -A may=(
   [shared]=""
   [core]=""
-  [scene]="core"
+  [scene]="shared core"
   [model]="shared core scene"
   [passes]="shared core scene model"
   [solvers]="shared core scene model passes"
@@ -18,8 +18,8 @@ declare -A may=(
   [gpu]="core"
   [sim]="shared core scene model passes solvers plan gpu"
   [study]="shared core scene model passes solvers plan gpu sim"
-  [render]="shared core scene model passes solvers plan gpu sim"
-  [viewer]="shared core scene model passes solvers plan gpu sim study render"
+  [render]="shared draw core scene model passes solvers plan gpu sim"
+  [viewer]="shared draw core scene model passes solvers plan gpu sim study render"
   [cli]="shared core scene model passes solvers plan gpu sim study render viewer"
 )
 # Folders that may see Vulkan and the window.
