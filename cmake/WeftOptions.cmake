@@ -7,10 +7,12 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
+# Designated initialisers leave members at their defaults on purpose: -Wno-missing-field-initializers.
 # -ffp-contract=off: the reference must round after every operation, as the shaders do under `precise`.
 # -fno-math-errno: lets sqrt become one instruction (and vectorise); results are unchanged.
 target_compile_options(weft_options INTERFACE
   -Wall -Wextra -Wpedantic -Werror -Wshadow -Wconversion -Wno-sign-conversion
+  -Wno-missing-field-initializers
   -ffp-contract=off -fno-math-errno -fno-trapping-math)
 target_compile_definitions(weft_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_DEPTH_ZERO_TO_ONE)
 
