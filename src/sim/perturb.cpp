@@ -21,16 +21,18 @@ std::string choices(const Plan& plan) {
 
 }  // namespace
 
-Perturbation::Perturbation(const std::string& name, const Plan& plan) : name_(name) {
+Perturbation::Perturbation(const std::string& name, const Plan& plan) {
   if (name.empty()) return;
-  const std::size_t dot = name.find('.');
-  pass_ = name.substr(0, dot);
-  constant_ = dot == std::string::npos ? "" : name.substr(dot + 1);
   for (const PlanStep& step : plan.steps)
     for (const Constant& constant : step.constants)
-      if (step.pass->name == pass_ && constant.name == constant_ && constant.value != 0) return;
+      if (name == fmt::format("{}.{}", step.pass->name, constant.name)) {
+        if (constant.value == 0) return;
+        pass_ = step.pass->name;
+        constant_ = constant.name;
+        return;
+      }
   throw error(Exit::usage,
-              "perturb is \"{}\"; it must be pass.constant of an effect in this scene's plan: {}", name,
+              "perturb is \"{}\"; it must be PASS.CONSTANT of an effect in this scene's plan: {}", name,
               choices(plan));
 }
 

@@ -15,17 +15,19 @@ namespace weft {
 class Perturbation {
  public:
   Perturbation() = default;
-  /// @param name  "pass.constant"; empty: nothing is falsified
-  /// @throws Error(Exit::usage) when the plan has no such constant on; lists those it has.
+  /// @param name  "pass.constant"; empty: nothing is falsified. A constant that is off in this plan has
+  /// nothing to
+  ///              falsify: active() is then false.
+  /// @throws Error(Exit::usage) when no pass of the plan has such a constant; lists those that are on.
   Perturbation(const std::string& name, const Plan& plan);
+  bool active() const { return !constant_.empty(); }
   void apply(Plan& plan) const;
   void apply(const Model& model, shared::Params& params) const;
   /// @param rows  one substep table, `stride` vec4s a row
   void apply(std::span<glm::vec4> rows, std::uint32_t stride) const;
-  const std::string& name() const { return name_; }
 
  private:
-  std::string name_, pass_, constant_;
+  std::string pass_, constant_;
 };
 
 }  // namespace weft

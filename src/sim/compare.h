@@ -1,0 +1,22 @@
+// How far two lists of floats are apart: largest difference, root mean square, units in the last place.
+#pragma once
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+
+namespace weft {
+
+struct Difference {
+  double max_abs = 0, rms = 0;
+  double magnitude = 0;       ///< largest absolute value expected
+  std::uint64_t max_ulp = 0;  ///< floats between the two; −0 and +0 agree
+  bool finite = true;         ///< whether every number on both sides is
+};
+
+/// @param got, expected  the same number of vectors; all four components count
+Difference difference(std::span<const glm::vec4> got, std::span<const glm::vec4> expected);
+
+/// Floats from a to b, counting each step to the next representable number; 0 for −0 and +0.
+std::uint64_t ulp_between(float a, float b);
+
+}  // namespace weft

@@ -1,0 +1,40 @@
+// Runs single steps of a plan on the device from given buffers, for checking a pass by itself.
+#pragma once
+#include <map>
+#include <vector>
+
+#include "passes/host_buffers.h"
+#include "sim/gpu_program.h"
+#include "sim/perturb.h"
+
+namespace weft {
+
+/// What a single dispatch left behind.
+struct PassResult {
+  std::vector<BufferId> outputs;  ///< what the pass writes, from its SPIR-V
+  HostBuffers<float> buffers;     ///< every vec4 buffer of the plan except the tables
+  std::vector<BufferId> touched;  ///< buffers it should have left alone and did not
+};
+
+class PassRunner {
+ public:
+  PassRunner(gpu::Device&, const Model&, const Plan&, const Perturbation&);
+  /// Runs plan step `step` once on row `row_index` of `rows`. `input` gives position and velocity; what the
+  /// pass writes is filled with NaN first, what it does not touch with a pattern.
+  PassResult run(std::size_t step, const HostBuffers<float>& input, std::span<const KickDrift> rows,
+                 std::uint32_t row_index);
+
+ private:
+  using Bytes = std::vector<std::byte>;
+  std::map<BufferId, Bytes> contents(std::size_t step, const HostBuffers<float>& input,
+                                     std::span<const KickDrift> rows) const;
+  bool writes(std::size_t step, BufferId id) const;
+  gpu::Device& device_;
+  const Model& model_;
+  Plan plan_;
+  const Perturbation& perturbation_;
+  GpuBuffers buffers_;
+  GpuProgram program_;
+};
+
+}  // namespace weft

@@ -1,0 +1,71 @@
+// The states on which a pass is checked.
+#include "sim/probe_states.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "sim/simulation.h"
+
+namespace weft {
+namespace {
+
+/// A number in [−1, 1) that depends on nothing but its index (a 64-bit mix, splitmix64 by S. Vigna).
+double noise(std::uint64_t index) {
+  std::uint64_t z = (index + 1) * 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+glm::dvec3 noise3(std::uint64_t index) {
+  return {noise(3 * index), noise(3 * index + 1), noise(3 * index + 2)};
+}
+
+State shaken(const Model& model, const State& from) {
+  constexpr double kSpeed_m_s = 2.0;
+  State state = from;
+  for (std::size_t p = 0; p < state.position.size(); ++p) {
+    state.position[p] += 0.1 * model.grid.spacing_m * noise3(2 * p);
+    state.velocity[p] += kSpeed_m_s * noise3(2 * p + 1);
+  }
+  return state;
+}
+
+/// Moves the cloth so that its middle lies on the first sphere's surface, or on the floor when there is none,
+/// and sends it inwards.
+State in_contact(const Model& model, const State& from) {
+  const Scene& scene = model.scene;
+  State state = from;
+  glm::dvec3 lowest(std::numeric_limits<double>::max()), highest(std::numeric_limits<double>::lowest());
+  for (const glm::dvec3& x : state.position) {
+    lowest = glm::min(lowest, x);
+    highest = glm::max(highest, x);
+  }
+  glm::dvec3 target = 0.5 * (lowest + highest);
+  if (scene.floor) target.y = scene.floor->height_m;
+  if (!scene.spheres.empty())
+    target = sphere_center_at(scene.spheres[0], 0.0) + glm::dvec3(0.0, 0.9 * scene.spheres[0].radius_m, 0.0);
+  const glm::dvec3 shift = target - 0.5 * (lowest + highest);
+  for (glm::dvec3& x : state.position) x += shift;
+  for (glm::dvec3& v : state.velocity) v.y -= 3.0;
+  return state;
+}
+
+}  // namespace
+
+std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
+  std::vector<ProbeState> states;
+  states.push_back({"start", start_state(model)});
+  const auto reference = make_cpu_simulation(model, solver, "f32");
+  for (int frame = 0; frame < 2; ++frame)
+    reference->advance(model.scene.solver.frame_s, reference->plan().substeps);
+  states.push_back({"2 frames on", reference->read()});
+  states.push_back({"shaken", shaken(model, states[0].state)});
+  if (model.scene.floor || !model.scene.spheres.empty())
+    states.push_back({"in contact", in_contact(model, states[2].state)});
+  return states;
+}
+
+}  // namespace weft
