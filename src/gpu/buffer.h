@@ -7,6 +7,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "gpu/device.h"
 
@@ -18,7 +20,8 @@ enum class Memory {
   readback,  ///< device writes, host reads (cached)
 };
 
-/// Suballocates VkDeviceMemory blocks by memory type. Counts what is live.
+/// Suballocates VkDeviceMemory blocks by memory type; images and buffers never share a block, so
+/// bufferImageGranularity cannot matter. Counts what is live.
 class Allocator {
  public:
   explicit Allocator(Device&, bool force_staging);
@@ -27,13 +30,16 @@ class Allocator {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0, size = 0;
     std::byte* mapped = nullptr;  ///< null when not host visible (or staging is forced)
-    std::uint32_t block = 0;
+    bool cached = false;          ///< the host reads it at full speed
+    std::uint64_t block = 0;
   };
   /// @throws Error(Exit::no_device) with the bytes needed and the bytes there.
   Allocation allocate(const VkMemoryRequirements&, Memory, bool image, const std::string& name);
   void release(const Allocation&);
-  std::uint64_t live_bytes() const;
+  std::uint64_t live_bytes() const;  ///< of allocations, without what blocks hold in reserve
   std::uint64_t live_count() const;
+  std::uint64_t block_bytes() const;  ///< taken from the driver
+  std::uint64_t block_count() const;
   /// Bytes of the largest device-local heap.
   std::uint64_t heap_bytes() const;
 
@@ -42,9 +48,12 @@ class Allocator {
   std::unique_ptr<Impl> impl_;
 };
 
+/// A buffer and its memory. Device and upload memory can always be copied from and to.
 class Buffer {
  public:
   Buffer() = default;
+  /// @param bytes  at least 1; a storage buffer at most the device's maxStorageBufferRange
+  /// @throws Error(Exit::no_device) when the device cannot hold it: what is needed and what is there
   Buffer(Device&, std::string name, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
@@ -55,16 +64,24 @@ class Buffer {
   const std::string& name() const { return name_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
-  /// Copies through mapped memory, else through a staging buffer and a submit; returns when done.
+  /// Waits for all submitted work, then copies: through mapped memory, else through a staging buffer and
+  /// a submission of its own. Returns when done. For per-frame data write `mapped()` of upload memory.
   void write(std::span<const std::byte> data, VkDeviceSize offset = 0);
   void read(std::span<std::byte> data, VkDeviceSize offset = 0) const;
 
+  /// A view of the whole buffer for samplerBuffer or imageBuffer, made at the first call; the usage must
+  /// hold VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT or VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT.
+  /// @throws Error(Exit::no_device) when it holds more texels than the device's maxTexelBufferElements
+  VkBufferView texel_view(VkFormat format) const;
+
  private:
+  void check_range(std::size_t bytes, VkDeviceSize offset, const char* verb) const;
   Device* device_ = nullptr;
   std::string name_;
   VkBuffer handle_ = VK_NULL_HANDLE;
   VkDeviceSize bytes_ = 0;
   Allocator::Allocation allocation_;
+  mutable std::vector<std::pair<VkFormat, VkBufferView>> views_;
 };
 
 struct ImageOptions {
@@ -84,6 +101,7 @@ class Image {
   Image(Image&&) noexcept;
   Image& operator=(Image&&) noexcept;
   VkImage handle() const { return handle_; }
+  explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
   VkImageView view() const { return view_; }
   const ImageOptions& options() const { return options_; }
 
@@ -94,5 +112,15 @@ class Image {
   ImageOptions options_;
   Allocator::Allocation allocation_;
 };
+
+/// Bytes of one texel. @throws Error(Exit::internal) for formats Weft does not use.
+std::uint32_t texel_bytes(VkFormat format);
+
+/// The pixels of a one-sample image, rows from the top, tightly packed. Waits for all submitted work.
+/// @param layout  the image's layout now; it is left in it
+std::vector<std::byte> read_image(Device&, const Image&, VkImageLayout layout);
+
+/// Fills an image; it ends in `layout`. The usage must hold VK_IMAGE_USAGE_TRANSFER_DST_BIT.
+void write_image(Device&, const Image&, std::span<const std::byte> pixels, VkImageLayout layout);
 
 }  // namespace weft::gpu

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,11 @@ struct DeviceInfo {
   bool software = false;
   bool float64 = false;
   bool timestamps = false;
-  bool wireframe = false;   ///< fillModeNonSolid
+  bool wireframe = false;  ///< fillModeNonSolid
+  bool wide_lines = false;
+  bool anisotropy = false;  ///< samplerAnisotropy
   std::uint64_t memory_bytes = 0;
-  std::string unusable;     ///< why it cannot run Weft; empty when it can
+  std::string unusable;  ///< why it cannot run Weft; empty when it can
 };
 
 /// Every Vulkan device there is, ranked discrete, integrated, virtual, software; unusable ones last.
@@ -31,12 +34,24 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 struct DeviceOptions {
-  std::string choice;            ///< part of the name, index in list_devices(), or UUID; empty: the first usable
-  bool validation = false;       ///< core and synchronization validation; every message is counted
-  bool force_staging = false;    ///< pretend no device memory is host visible (also WEFT_FORCE_STAGING=1)
+  std::string choice;       ///< part of the name, index in list_devices(), or UUID; empty: the first usable
+  bool validation = false;  ///< core and synchronization validation; every message is counted
+  bool force_staging = false;  ///< pretend no device memory is host visible (also WEFT_FORCE_STAGING=1)
   std::vector<const char*> instance_extensions, device_extensions;  ///< for a window
 };
 
+/// What a submission waits for and signals besides the timeline: a window's swapchain.
+struct SubmitSemaphores {
+  VkSemaphore wait = VK_NULL_HANDLE;
+  VkPipelineStageFlags2 wait_stage = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+  VkSemaphore signal = VK_NULL_HANDLE;
+};
+
+/// One device with one queue. Use from one thread at a time.
+///
+/// Every optional feature that DeviceInfo reports is enabled when it is there. Debug switches in the
+/// environment: WEFT_FORCE_STAGING=1; WEFT_FAIL_ALLOCATION_AFTER_BYTES=n lets allocation n+1 fail as if
+/// memory were out; WEFT_SIMULATE_DEVICE_LOSS_AFTER=n lets submission n+1 fail as if the device were lost.
 class Device {
  public:
   /// @throws Error(Exit::no_device) naming the devices there are and why each will not do.
@@ -56,17 +71,35 @@ class Device {
   PipelineCache& pipeline_cache();
 
   /// Messages of the validation layer so far (errors and warnings); tests require none.
-  const std::vector<std::string>& validation_messages() const;
-  /// Records and submits once, and waits: uploads, read-backs, tests.
+  std::vector<std::string> validation_messages() const;
+  void clear_validation_messages();  ///< for a test that provokes one
+  bool validating() const;
+
+  /// Records and submits once, and waits: uploads, read-backs, tests. Ordered after everything submitted
+  /// before and before everything after, for all stages and the host.
   void run_once(const std::function<void(VkCommandBuffer)>& record);
   /// Submits, signalling the device's timeline; returns the value that `wait` takes.
   std::uint64_t submit(VkCommandBuffer commands);
+  /// Several command buffers in one submission, in this order.
+  std::uint64_t submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores = {});
   void wait(std::uint64_t value);
-  std::uint64_t completed();  ///< latest finished timeline value
+  std::uint64_t completed();        ///< latest finished timeline value
+  std::uint64_t submitted() const;  ///< latest timeline value handed out
   void wait_idle();
+
   /// Names an object for RenderDoc and validation messages.
   void name(VkObjectType type, std::uint64_t handle, const std::string& text);
+  /// Names any Vulkan handle, dispatchable or not.
+  template <class Handle>
+  void name(VkObjectType type, Handle* handle, const std::string& text) {
+    name(type, reinterpret_cast<std::uint64_t>(handle), text);
+  }
+  /// Debug labels around commands; nothing when the loader has no VK_EXT_debug_utils.
+  void begin_label(VkCommandBuffer, const std::string& text) const;
+  void end_label(VkCommandBuffer) const;
   VkSemaphore timeline() const;
+  double timestamp_ns() const;  ///< nanoseconds a timestamp tick; 0 when there are none
+  std::uint32_t timestamp_valid_bits() const;
 
  private:
   struct Impl;
