@@ -1,0 +1,51 @@
+// For the fragment shaders: the palette, the sky, filtered patterns and the way to the screen.
+#include "view.glsl"
+
+// Colours are linear; the palette lives here so that a picture can be retuned in one place.
+const vec3 kHorizon = vec3(0.80, 0.81, 0.81);
+const vec3 kZenith = vec3(0.16, 0.29, 0.46);
+const vec3 kGround = vec3(0.42, 0.40, 0.38);  // below the horizon where there is no floor
+const vec3 kKey = vec3(3.00, 2.72, 2.34);     // the sun, slightly warm
+const vec3 kSkyFill = vec3(0.46, 0.55, 0.68);
+const vec3 kFloorFill = vec3(0.32, 0.28, 0.24);
+const vec3 kRim = vec3(0.55, 0.66, 0.80);
+
+vec3 sky(vec3 direction) {
+  float up = direction.y;
+  vec3 above = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.62));
+  vec3 below = mix(kHorizon, kGround, 1.0 - exp(-4.0 * max(-up, 0.0)));
+  return up > 0.0 ? above : below;
+}
+
+// Interleaved gradient noise, 0…1. Source: Jimenez 2014, "Next generation post processing in Call of Duty".
+float pixel_noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+
+// Filmic curve (Narkowicz 2015, ACES fit), then sRGB; half a step of noise keeps gradients free of bands.
+vec4 to_screen(vec3 light) {
+  vec3 x = light * 0.62;
+  vec3 film = clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+  vec3 low = 12.92 * film;
+  vec3 high = 1.055 * pow(max(film, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055;
+  vec3 code = mix(high, low, lessThanEqual(film, vec3(0.0031308)));
+  return vec4(code + (pixel_noise(gl_FragCoord.xy) - 0.5) / 255.0, 1.0);
+}
+
+// Share of an area of the floor's or a cloth's square pattern, filtered over a pixel's footprint `w`.
+// Source: Quilez, "filtering the checker pattern" (box filter of a triangle wave's derivative).
+float filtered_checker(vec2 p, vec2 w) {
+  w = max(w, vec2(1e-4));
+  vec2 s = 2.0 * (abs(fract((p - 0.5 * w) * 0.5) - 0.5) - abs(fract((p + 0.5 * w) * 0.5) - 0.5)) / w;
+  return 0.5 - 0.5 * s.x * s.y;
+}
+
+// How much balls darken a surface they stand near: cosine times solid angle, summed.
+float ball_occlusion(vec3 p, vec3 n) {
+  float open = 1.0;
+  for (uint k = 0u; k < view.sphere_count; ++k) {
+    vec3 d = view.balls[k].xyz - p;
+    float l2 = dot(d, d), r = view.balls[k].w;
+    float cosine = max(dot(n, d) * inversesqrt(l2), 0.0);
+    open *= 1.0 - min(cosine * r * r / l2, 1.0);
+  }
+  return open;
+}

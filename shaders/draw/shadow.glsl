@@ -1,0 +1,42 @@
+// Soft shadows from the one shadow map: near the caster they are sharp, further away wide (percentage
+// closer soft shadows, Fernando 2005).
+layout(set = 0, binding = 1) uniform sampler2DShadow shadow_compare;
+layout(set = 0, binding = 2) uniform sampler2D shadow_depth;
+
+layout(constant_id = 0) const int kShadowTaps = 16;
+const int kBlockerTaps = 10;
+const float kLightSize = 0.07;        // tangent of the light's angular diameter
+const float kWidestTexels = 14.0;
+
+// Point k of n on a disc of radius 1, evenly spread (Vogel's spiral), turned by `turn` radians.
+vec2 disc(int k, int n, float turn) {
+  float r = sqrt((float(k) + 0.5) / float(n)), a = 2.39996323 * float(k) + turn;
+  return r * vec2(cos(a), sin(a));
+}
+
+// 1 = lit, 0 = in shadow. `n` faces the light; the lookup starts a little above the surface.
+// Loops of zero turns, not branches: a software driver runs both sides of a branch, but skips a loop.
+float shadow(vec3 p, vec3 n) {
+  float slope = sqrt(clamp(1.0 - dot(n, view.to_light) * dot(n, view.to_light), 0.0, 1.0));
+  vec4 s = view.shadow_clip * vec4(p + n * (view.shadow_texel_m * (1.0 + 1.5 * slope)), 1.0);
+  vec2 at = s.xy * 0.5 + 0.5;
+  float texel = 1.0 / float(textureSize(shadow_depth, 0).x);
+  bool inside = all(lessThan(abs(s.xyz - vec3(0, 0, 0.5)), vec3(1.0, 1.0, 0.5)));
+  float turn = 6.2831853 * pixel_noise(gl_FragCoord.xy);
+
+  float depth_sum = 0.0, blockers = 0.0;
+  int search = inside ? kBlockerTaps : 0;
+  for (int k = 0; k < search; ++k) {
+    float d = textureLod(shadow_depth, at + disc(k, kBlockerTaps, turn) * kWidestTexels * texel, 0.0).r;
+    float blocks = d < s.z ? 1.0 : 0.0;
+    depth_sum += blocks * d;
+    blockers += blocks;
+  }
+  float gap_m = (s.z - depth_sum / max(blockers, 1.0)) * view.shadow_depth_m;
+  float radius = clamp(0.5 * kLightSize * gap_m / view.shadow_texel_m, 1.2, kWidestTexels) * texel;
+  int taps = blockers > 0.0 ? kShadowTaps : 0;
+  float lit = 0.0;
+  for (int k = 0; k < taps; ++k)
+    lit += textureLod(shadow_compare, vec3(at + disc(k, kShadowTaps, turn) * radius, s.z), 0.0);
+  return taps > 0 ? lit / float(kShadowTaps) : 1.0;
+}

@@ -1,0 +1,128 @@
+// The orbit camera's axes and matrix; the default framing.
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace weft {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kMargin = 1.10;  // air around the scene, as a factor on the distance
+
+void include(Bounds& bounds, const glm::dvec3& low, const glm::dvec3& high) {
+  bounds.low = glm::min(bounds.low, low);
+  bounds.high = glm::max(bounds.high, high);
+}
+
+Bounds start_bounds(const State& start) {
+  Bounds bounds{start.position.front(), start.position.front()};
+  for (const glm::dvec3& p : start.position) include(bounds, p, p);
+  return bounds;
+}
+
+glm::dvec2 flat_place(const Model& model, const PinSection& pin) {
+  return {pin.at.x * model.grid.width_m(), pin.at.y * model.grid.height_m()};
+}
+
+/// The start's height above the world's origin at a pin.
+double pin_height_m(const Model& model, const PinSection& pin) {
+  const ClothSection& cloth = model.scene.cloth;
+  if (cloth.orientation == Orientation::horizontal) return cloth.center_m.y;
+  return cloth.center_m.y + model.grid.height_m() * (0.5 - pin.at.y);
+}
+
+/// How low the cloth's corners hang when the threads from the pins are straight. The middle of a cloth held
+/// all around sags by something like a sixth of its size.
+double hanging_low_m(const Model& model, double start_low_m) {
+  const double width = model.grid.width_m(), height = model.grid.height_m();
+  const glm::dvec2 corners[] = {{0.0, 0.0}, {width, 0.0}, {0.0, height}, {width, height}};
+  double low = start_low_m;
+  double sag = std::numeric_limits<double>::infinity();
+  for (const glm::dvec2& corner : corners) {
+    double held = -std::numeric_limits<double>::infinity();
+    for (const PinSection& pin : model.scene.pins)
+      held = std::max(held, pin_height_m(model, pin) - glm::distance(flat_place(model, pin), corner));
+    low = std::min(low, held);
+    sag = std::min(sag, start_low_m - held);
+  }
+  const bool held_all_around = sag <= 1e-9 && low >= start_low_m - 1e-9;
+  return held_all_around ? start_low_m - std::max(width, height) / 6.0 : low;
+}
+
+}  // namespace
+
+double Bounds::radius_m() const { return 0.5 * glm::distance(low, high); }
+
+glm::dvec3 Camera::forward() const {
+  return -glm::dvec3(std::sin(yaw_rad) * std::cos(pitch_rad), std::sin(pitch_rad),
+                     std::cos(yaw_rad) * std::cos(pitch_rad));
+}
+
+glm::dvec3 Camera::right() const { return {std::cos(yaw_rad), 0.0, -std::sin(yaw_rad)}; }
+
+glm::dvec3 Camera::up() const { return glm::cross(right(), forward()); }
+
+glm::dvec3 Camera::eye_m() const { return target_m - distance_m * forward(); }
+
+double Camera::near_m() const { return 0.02 * distance_m; }
+
+glm::mat4 Camera::clip(double aspect) const {
+  const double focal = 1.0 / std::tan(0.5 * fov_y_rad);
+  const glm::dvec3 eye = eye_m();
+  // Row by row: x to the right, y down the picture, the constant near plane, and the view depth as w.
+  const glm::dvec3 rows[4] = {right() * (focal / aspect), -up() * focal, glm::dvec3(0.0), forward()};
+  const double constants[4] = {0.0, 0.0, near_m(), 0.0};
+  glm::mat4 matrix;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 3; ++c) matrix[c][r] = static_cast<float>(rows[r][c]);
+    matrix[3][r] = static_cast<float>(constants[r] - glm::dot(rows[r], eye));
+  }
+  return matrix;
+}
+
+Bounds scene_bounds(const Model& model) {
+  const Scene& scene = model.scene;
+  Bounds bounds = start_bounds(start_state(model));
+  const double size = std::max(model.grid.width_m(), model.grid.height_m());
+  if (!scene.pins.empty())
+    bounds.low.y = hanging_low_m(model, bounds.low.y);
+  else if (scene.floor && scene.gravity)
+    bounds.low.y = std::min(bounds.low.y, scene.floor->height_m);
+  else if (scene.gravity)
+    bounds.low.y -= 0.5 * size;
+  for (const SphereSection& sphere : scene.spheres)
+    for (const double time_s : {0.0, 1.0}) {
+      const glm::dvec3 center = sphere_center_at(sphere, time_s);
+      include(bounds, center - sphere.radius_m, center + sphere.radius_m);
+    }
+  if (scene.floor) bounds.low.y = std::max(bounds.low.y, scene.floor->height_m);
+  bounds.high = glm::max(bounds.high, bounds.low + 0.05 * size);
+  return bounds;
+}
+
+Camera default_camera(const Model& model, double aspect) {
+  const Bounds bounds = scene_bounds(model);
+  const bool lies = model.scene.cloth.orientation == Orientation::horizontal;
+  Camera camera;
+  camera.target_m = bounds.middle();
+  camera.yaw_rad = 30.0 * kDegree;
+  camera.pitch_rad = (lies ? 20.0 : 11.0) * kDegree;
+  const double tan_y = std::tan(0.5 * camera.fov_y_rad), tan_x = tan_y * aspect;
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 p{(corner & 1) != 0 ? bounds.high.x : bounds.low.x,
+                       (corner & 2) != 0 ? bounds.high.y : bounds.low.y,
+                       (corner & 4) != 0 ? bounds.high.z : bounds.low.z};
+    const glm::dvec3 d = p - camera.target_m;
+    const double across =
+        std::max(std::abs(glm::dot(d, camera.right())) / tan_x, std::abs(glm::dot(d, camera.up())) / tan_y);
+    distance = std::max(distance, across - glm::dot(d, camera.forward()));
+  }
+  camera.distance_m = kMargin * distance;
+  return camera;
+}
+
+}  // namespace weft

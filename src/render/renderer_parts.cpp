@@ -1,0 +1,98 @@
+// What a Renderer makes on first use: its pipelines and index buffers.
+#include <span>
+#include <string>
+
+#include "render/mesh.h"
+#include "render/renderer.h"
+
+namespace weft {
+
+std::string_view Renderer::kind_name(Kind kind) {
+  constexpr std::array<std::string_view, kKindCount> kNames{
+      "shadow of cloth", "shadow of lines", "shadow of balls", "cloth", "cloth flat", "cloth heat",
+      "cloth flat heat", "wireframe",       "wireframe heat",  "balls", "floor",      "sky"};
+  return kNames[kind];
+}
+
+DrawPipelineOptions Renderer::describe(Kind kind) const {
+  DrawPipelineOptions options;
+  options.name = kind_name(kind);
+  options.color_format = color_format_;
+  options.samples = samples_;
+  const bool flat = kind == kFlat || kind == kFlatHeat;
+  const bool heat = kind == kSmoothHeat || kind == kFlatHeat || kind == kWireHeat;
+  options.constants = {device_.info().software ? 12u : 24u, flat ? 1u : 0u, heat ? 1u : 0u};
+  switch (kind) {
+    case kShadowTriangles:
+    case kShadowLines:
+    case kShadowBalls:
+      options.vertex = kind == kShadowBalls ? "draw/shadow_ball.vert" : "draw/shadow_cloth.vert";
+      options.attributes = kind == kShadowBalls ? 0 : 1;
+      options.cull_back = kind == kShadowBalls;
+      options.shadow = true;
+      options.color_format = VK_FORMAT_UNDEFINED;
+      options.samples = VK_SAMPLE_COUNT_1_BIT;
+      if (kind == kShadowLines) options.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+      return options;
+    case kBalls:
+      options.vertex = "draw/ball.vert";
+      options.fragment = "draw/ball.frag";
+      options.cull_back = true;
+      return options;
+    case kFloor:
+      options.vertex = "draw/floor.vert";
+      options.fragment = "draw/floor.frag";
+      options.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
+      return options;
+    case kSky:
+      options.vertex = "draw/sky.vert";
+      options.fragment = "draw/sky.frag";
+      options.writes_depth = false;
+      return options;
+    default:
+      options.vertex = heat ? "draw/cloth_heat.vert" : "draw/cloth.vert";
+      options.fragment = "draw/cloth.frag";
+      options.attributes = 2;
+      if (kind != kWire && kind != kWireHeat) return options;
+      options.fragment = "draw/wire.frag";
+      options.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
+      return options;
+  }
+}
+
+const DrawPipeline& Renderer::pipeline(Kind kind) {
+  DrawPipeline& made = pipelines_[kind];
+  if (!made) made = DrawPipeline(device_, layout_->handle(), describe(kind));
+  return made;
+}
+
+std::vector<std::string_view> Renderer::pipelines() const {
+  std::vector<std::string_view> names;
+  for (std::uint32_t kind = 0; kind < kKindCount; ++kind)
+    if (pipelines_[kind]) names.push_back(kind_name(static_cast<Kind>(kind)));
+  return names;
+}
+
+const Renderer::Indices& Renderer::indices(List list) {
+  Indices& made = lists_[list];
+  if (made.buffer) return made;
+  constexpr std::array<const char*, kListCount> kNames{"cloth triangles", "cloth half triangles",
+                                                       "cloth lines", "ball triangles"};
+  const auto generate = [&] {
+    switch (list) {
+      case kAllTriangles: return cloth_triangles(model_.grid);
+      case kHalfTriangles: return cloth_half_triangles(model_.grid);
+      case kLines: return cloth_lines(model_.grid);
+      default: return ball_triangles();
+    }
+  };
+  const std::vector<std::uint32_t> words = generate();
+  made.count = static_cast<std::uint32_t>(words.size());
+  made.buffer =
+      gpu::Buffer(device_, kNames[list], words.size() * sizeof(std::uint32_t),
+                  VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device);
+  made.buffer.write(std::as_bytes(std::span(words)));
+  return made;
+}
+
+}  // namespace weft
