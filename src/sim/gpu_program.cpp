@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "gpu/shader.h"
 
 namespace weft {
 namespace {
@@ -17,7 +16,7 @@ std::uint64_t particles_at(const Scene& scene, std::uint32_t resolution) {
 }
 
 /// The module a step runs. The one place that may choose a variant for the device.
-std::string module_of(const Pass& pass) { return "passes/" + std::string(pass.name) + ".comp"; }
+std::string module_of(const Pass& pass) { return fmt::format("passes/{}.comp", pass.name); }
 
 VkBufferUsageFlags usage_of(BufferId id) {
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -57,7 +56,7 @@ GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan
     std::vector<gpu::Buffer>& copies = buffers_[wanted.id];
     for (std::uint32_t slot = 0; slot < slots; ++slot) {
       std::string name(row_of(wanted.id).name);
-      if (slots > 1) name += "[" + std::to_string(slot) + "]";
+      if (slots > 1) name = fmt::format("{}[{}]", name, slot);
       copies.emplace_back(device, std::move(name), wanted.bytes / slots, usage_of(wanted.id),
                           slots > 1 ? gpu::Memory::upload : gpu::Memory::device);
     }
@@ -92,16 +91,19 @@ BufferId at_parity(BufferId id, Parity parity) {
   }
 }
 
-GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers) {
+GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers,
+                       std::shared_ptr<GpuPipelines> pipelines) {
+  if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
-    const std::size_t kernel = kernel_for(device, step, buffers);
-    const std::uint32_t* local = kernels_[kernel].pipeline.reflection().local_size;
+    const std::size_t kernel = kernel_for(device, step, buffers, *pipelines);
+    const std::uint32_t* local = kernels_[kernel].pipeline->reflection().local_size;
     steps_.push_back(
         {kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + local[1] - 1) / local[1]});
   }
 }
 
-std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers) {
+std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
+                                   GpuPipelines& pipelines) {
   const std::string module = module_of(*step.pass);
   std::vector<std::uint32_t> constants;
   for (const Constant& constant : step.constants) constants.push_back(constant.value);
@@ -111,9 +113,8 @@ std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, co
   Kernel kernel;
   kernel.module = module;
   kernel.constants = constants;
-  kernel.pipeline =
-      gpu::ComputePipeline(device, std::string(step.pass->name), gpu::load_spirv(module), kernel.constants);
-  const auto& bindings = kernel.pipeline.reflection().bindings;
+  kernel.pipeline = pipelines.get(module, std::string(step.pass->name), kernel.constants);
+  const auto& bindings = kernel.pipeline->reflection().bindings;
   for (const gpu::Binding& binding : bindings)
     kernel.flips |= binding.writes && binding.binding == static_cast<std::uint32_t>(BufferId::position_next);
   for (Parity parity = 0; parity < 2; ++parity)
@@ -121,7 +122,7 @@ std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, co
       std::vector<gpu::BoundBuffer> bound;
       for (const gpu::Binding& binding : bindings)
         bound.push_back({binding.binding, &buffers.at(at_parity(BufferId{binding.binding}, parity), slot)});
-      kernel.sets.emplace_back(device, kernel.pipeline, bound);
+      kernel.sets.emplace_back(device, *kernel.pipeline, bound);
     }
   kernels_.push_back(std::move(kernel));
   return kernels_.size() - 1;
@@ -133,10 +134,10 @@ void GpuProgram::dispatch(gpu::Recorder& recorder, std::size_t step, Parity pari
                           std::uint32_t row) const {
   const Step& place = steps_[step];
   const Kernel& kernel = kernels_[place.kernel];
-  const bool takes_row = kernel.pipeline.reflection().push_constant_bytes > 0;
+  const bool takes_row = kernel.pipeline->reflection().push_constant_bytes > 0;
   const auto push = std::as_bytes(std::span(&row, takes_row ? 1 : 0));
-  recorder.dispatch(kernel.pipeline, kernel.sets[parity * kFrameSlots + slot], place.groups_x, place.groups_y,
-                    push);
+  recorder.dispatch(*kernel.pipeline, kernel.sets[parity * kFrameSlots + slot], place.groups_x,
+                    place.groups_y, push);
 }
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 // simulation, which runs frames, and the validator, which runs single passes.
 #pragma once
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "gpu/recorder.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
+#include "sim/gpu_pipelines.h"
 
 namespace weft {
 
@@ -40,13 +42,14 @@ using Parity = std::uint32_t;
 /// slots.
 class GpuProgram {
  public:
-  GpuProgram(gpu::Device&, const Plan&, const GpuBuffers&);
+  /// @param pipelines  where they are kept for the next program; null: for this one alone
+  GpuProgram(gpu::Device&, const Plan&, const GpuBuffers&, std::shared_ptr<GpuPipelines> pipelines = nullptr);
   /// Records one dispatch of plan step `step`; `row` is its row of the substep table.
   void dispatch(gpu::Recorder&, std::size_t step, Parity, std::uint32_t slot, std::uint32_t row) const;
   /// Whether the step writes the state's other half, so that the parity changes after it.
   bool flips(std::size_t step) const;
   const gpu::ComputePipeline& pipeline(std::size_t step) const {
-    return kernels_[steps_[step].kernel].pipeline;
+    return *kernels_[steps_[step].kernel].pipeline;
   }
   std::size_t pipeline_count() const { return kernels_.size(); }
 
@@ -54,7 +57,7 @@ class GpuProgram {
   struct Kernel {
     std::string module;
     std::vector<std::uint32_t> constants;
-    gpu::ComputePipeline pipeline;
+    std::shared_ptr<const gpu::ComputePipeline> pipeline;
     bool flips = false;
     std::vector<gpu::DescriptorSet> sets;  ///< [parity · kFrameSlots + slot]
   };
@@ -62,7 +65,7 @@ class GpuProgram {
     std::size_t kernel;
     std::uint32_t groups_x, groups_y;
   };
-  std::size_t kernel_for(gpu::Device&, const PlanStep&, const GpuBuffers&);
+  std::size_t kernel_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&);
   std::vector<Kernel> kernels_;
   std::vector<Step> steps_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 
 #include "core/error.h"
 #include "passes/tables.h"
@@ -24,6 +25,22 @@ const Solver& require_gpu(const Solver& solver) {
   return solver;
 }
 
+/// Whether the commands recorded for one plan run the other as they are.
+bool same_commands(const Plan& a, const Plan& b) {
+  const auto same_step = [](const PlanStep& x, const PlanStep& y) {
+    const auto same_constant = [](const Constant& c, const Constant& d) {
+      return c.name == d.name && c.value == d.value;
+    };
+    return x.pass == y.pass && x.block == y.block && x.range.x == y.range.x && x.range.y == y.range.y &&
+           x.range.offset == y.range.offset && std::ranges::equal(x.constants, y.constants, same_constant);
+  };
+  const auto same_buffer = [](const PlanBuffer& x, const PlanBuffer& y) {
+    return x.id == y.id && x.bytes == y.bytes;
+  };
+  return a.solver == b.solver && std::ranges::equal(a.steps, b.steps, same_step) &&
+         std::ranges::equal(a.buffers, b.buffers, same_buffer);
+}
+
 class VulkanSimulation final : public GpuSimulation {
  public:
   VulkanSimulation(gpu::Device& device, const Model& model, const Solver& solver,
@@ -34,13 +51,10 @@ class VulkanSimulation final : public GpuSimulation {
         perturbation_(options.perturb, plan_),
         program_plan_(perturbed(plan_, perturbation_)),
         buffers_(device, model_, plan_),
-        program_(device, program_plan_, buffers_),
+        program_(device, program_plan_, buffers_, options.pipelines),
         commands_(device, plan_, program_),
         pacer_(options.dispatches_per_submit) {
-    shared::Params params = make_params(model_);
-    perturbation_.apply(model_, params);
-    for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
-      buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
+    write_params();
     write(start_state(model_));
   }
   ~VulkanSimulation() override {
@@ -68,8 +82,13 @@ class VulkanSimulation final : public GpuSimulation {
   }
 
   FrameStats advance(double frame_s, std::uint32_t substeps) override;
+  void begin_frame(double frame_s, std::uint32_t substeps) override;
+  bool continue_frame() override;
+  void refresh_normals() override;
   State read() override;
   void write(const State&) override;
+  bool adopt(const Model&) override;
+  void place(std::span<const PlacedParticle>) override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -79,14 +98,21 @@ class VulkanSimulation final : public GpuSimulation {
     Clock::time_point start;
     std::vector<double> step_ms;  // of the frame so far
   };
+  struct Frame {  // the one being submitted
+    std::uint32_t slot = 0, substeps = 0, done = 0;
+    double start_s = 0, length_s = 0;
+    std::optional<DispatchOrder> order;  // absent between frames
+    FrameStats stats;
+  };
   static Plan perturbed(Plan plan, const Perturbation& perturbation) {
     perturbation.apply(plan);
     return plan;
   }
+  void write_params();
   void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
   void submit(FrameCommands::Chunk& chunk, Slot& slot);
   void finish(Slot& slot);
-  void refresh_normals();
+  void end_frame();
 
   gpu::Device& device_;
   Model model_;
@@ -98,6 +124,7 @@ class VulkanSimulation final : public GpuSimulation {
   FrameCommands commands_;
   SubmitPacer pacer_;
   std::array<Slot, kFrameSlots> slots_;
+  Frame frame_;
   std::vector<shared::vec4> table_;
   std::vector<double> step_ms_;
   Parity parity_ = 0;
@@ -105,6 +132,13 @@ class VulkanSimulation final : public GpuSimulation {
   std::uint32_t submits_ = 0;
   double time_s_ = 0;
 };
+
+void VulkanSimulation::write_params() {
+  shared::Params params = make_params(model_);
+  perturbation_.apply(model_, params);
+  for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
+    buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
+}
 
 void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
   const std::vector<KickDrift> rows = plan_.solver->schedule(time_s_, frame_s, substeps);
@@ -149,6 +183,13 @@ void VulkanSimulation::finish(Slot& slot) {
 }
 
 FrameStats VulkanSimulation::advance(double frame_s, std::uint32_t substeps) {
+  begin_frame(frame_s, substeps);
+  while (continue_frame()) {
+  }
+  return frame_.stats;
+}
+
+void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
   if (commands_.crowded()) {
     wait();
     commands_.clear();
@@ -158,23 +199,41 @@ FrameStats VulkanSimulation::advance(double frame_s, std::uint32_t substeps) {
   finish(slot);
   slot.step_ms.assign(plan_.steps.size(), 0.0);
   write_table(frame_s, substeps, slot_index);
-
-  FrameStats stats{.substeps = substeps, .dispatches = 0, .spring_evaluations = 0};
-  const DispatchOrder order(plan_, substeps);
+  frame_ = {.slot = slot_index,
+            .substeps = substeps,
+            .done = 0,
+            .start_s = time_s_,
+            .length_s = frame_s,
+            .order = DispatchOrder(plan_, substeps),
+            .stats = {.substeps = substeps, .dispatches = 0, .spring_evaluations = 0}};
   submits_ = 0;
-  for (std::uint32_t first = 0; first < order.count();) {
-    const std::uint32_t count = std::min(pacer_.chunk(), order.count() - first);
-    const std::uint32_t n = order.independent_of_substeps(first, count) ? 0 : substeps;
-    FrameCommands::Chunk& chunk = commands_.chunk({slot_index, parity_, first, count, n}, order);
-    submit(chunk, slot);
-    stats.dispatches += chunk.dispatches;
-    first += count;
-    if (pacer_.learning()) finish(slot);
+}
+
+bool VulkanSimulation::continue_frame() {
+  if (!frame_.order) return false;
+  const DispatchOrder& order = *frame_.order;
+  const std::uint32_t count = std::min(pacer_.chunk(), order.count() - frame_.done);
+  const std::uint32_t n = order.independent_of_substeps(frame_.done, count) ? 0 : frame_.substeps;
+  FrameCommands::Chunk& chunk = commands_.chunk({frame_.slot, parity_, frame_.done, count, n}, order);
+  submit(chunk, slots_[frame_.slot]);
+  frame_.stats.dispatches += chunk.dispatches;
+  frame_.done += count;
+  if (pacer_.learning()) finish(slots_[frame_.slot]);
+  if (frame_.done < order.count()) {
+    time_s_ = frame_.start_s + frame_.length_s * order[frame_.done].row / frame_.substeps;
+    return true;
   }
-  for (std::uint32_t place = 0; place < order.count(); ++place)
-    stats.spring_evaluations += plan_.steps[order[place].step].pass->spring_evaluations(model_);
-  time_s_ += frame_s;
-  return stats;
+  end_frame();
+  return false;
+}
+
+void VulkanSimulation::end_frame() {
+  for (std::uint32_t place = 0; place < frame_.order->count(); ++place) {
+    const Pass& pass = *plan_.steps[(*frame_.order)[place].step].pass;
+    frame_.stats.spring_evaluations += pass.spring_evaluations(model_);
+  }
+  time_s_ = frame_.start_s + frame_.length_s;
+  frame_.order.reset();
 }
 
 State VulkanSimulation::read() {
@@ -189,6 +248,7 @@ State VulkanSimulation::read() {
 
 void VulkanSimulation::write(const State& state) {
   wait();
+  frame_.order.reset();
   HostBuffers<float> host;
   load_state(model_, state, host);
   for (const BufferId id : {BufferId::position, BufferId::velocity})
@@ -197,8 +257,10 @@ void VulkanSimulation::write(const State& state) {
   refresh_normals();
 }
 
-/// What is drawn before the first frame, or after a write, needs the normals of that state.
+/// What is drawn before the first frame, in the middle of one or after a write needs the normals of that
+/// state.
 void VulkanSimulation::refresh_normals() {
+  wait();
   device_.run_once([&](VkCommandBuffer commands) {
     gpu::Recorder recorder(device_, commands);
     for (std::size_t step = 0; step < plan_.steps.size(); ++step)
@@ -206,6 +268,42 @@ void VulkanSimulation::refresh_normals() {
         program_.dispatch(recorder, step, parity_, 0, 0);
     recorder.finish();
   });
+}
+
+bool VulkanSimulation::adopt(const Model& model) {
+  Plan next = compile_plan(model, *plan_.solver);
+  if (!same_commands(next, plan_)) return false;
+  const bool new_masses = model.relative_inverse_mass != model_.relative_inverse_mass;
+  State state;
+  if (new_masses) state = read();
+  wait();
+  frame_.order.reset();
+  model_ = model;
+  plan_ = std::move(next);
+  write_params();
+  if (new_masses) write(state);
+  return true;
+}
+
+void VulkanSimulation::place(std::span<const PlacedParticle> particles) {
+  wait();
+  for (std::size_t first = 0; first < particles.size();) {
+    std::vector<glm::vec4> positions, velocities;
+    std::size_t next = first;
+    while (next < particles.size() &&
+           particles[next].particle == particles[first].particle + (next - first)) {
+      if (model_.relative_inverse_mass.at(particles[next].particle) != 0.0)
+        throw error(Exit::internal, "particle {} is to be placed but is not pinned",
+                    particles[next].particle);
+      positions.emplace_back(particles[next].position_m, 0.0f);
+      velocities.emplace_back(particles[next].velocity_m_s, 0.0f);
+      ++next;
+    }
+    const VkDeviceSize offset = particles[first].particle * sizeof(glm::vec4);
+    buffers_.at(at_parity(BufferId::position, parity_)).write(std::as_bytes(std::span(positions)), offset);
+    buffers_.at(at_parity(BufferId::velocity, parity_)).write(std::as_bytes(std::span(velocities)), offset);
+    first = next;
+  }
 }
 
 }  // namespace

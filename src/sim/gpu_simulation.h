@@ -3,10 +3,13 @@
 #pragma once
 #include <vulkan/vulkan.h>
 
+#include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "gpu/device.h"
+#include "sim/gpu_pipelines.h"
 #include "sim/simulation.h"
 
 namespace weft {
@@ -20,6 +23,13 @@ struct DrawBuffers {
 struct GpuSimulationOptions {
   std::uint32_t dispatches_per_submit = 0;  ///< 0: measured, so that a submit stays under about 50 ms
   std::string perturb;                      ///< "pass.constant" to falsify (perturb.h); empty: none
+  std::shared_ptr<GpuPipelines> pipelines;  ///< shared with the simulation before this one; empty: its own
+};
+
+/// A pinned particle that something outside the plan moves: a hand.
+struct PlacedParticle {
+  std::uint32_t particle = 0;
+  glm::vec3 position_m{0.0f}, velocity_m_s{0.0f};
 };
 
 class GpuSimulation : public Simulation {
@@ -37,6 +47,21 @@ class GpuSimulation : public Simulation {
   virtual std::uint32_t submit_count() const = 0;
   /// Returns when the device has finished every frame so far.
   virtual void wait() = 0;
+
+  /// advance() in parts, for a window that must answer meanwhile: begins a frame, computing nothing yet. What
+  /// was left of an unfinished one is dropped; the state stays where that one had come to.
+  virtual void begin_frame(double frame_s, std::uint32_t substeps) = 0;
+  /// Submits the next part of the frame, at most about 50 ms of work. Returns whether more is left.
+  virtual bool continue_frame() = 0;
+  /// In the middle of a frame: makes draw_buffers() show the state as it is by now. Waits for the device.
+  virtual void refresh_normals() = 0;
+
+  /// Takes another model that leads to the same plan (passes, constants, ranges, buffers): rewrites what the
+  /// parameters say and who is pinned, keeps the state. Returns false, changing nothing, for another plan.
+  virtual bool adopt(const Model&) = 0;
+  /// Puts particles that the model pins in place, before the next frame or part of one.
+  /// @throws Error(Exit::internal) for a particle that is not pinned: the plan would move it on
+  virtual void place(std::span<const PlacedParticle>) = 0;
 };
 
 }  // namespace weft

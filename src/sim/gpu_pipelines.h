@@ -1,0 +1,30 @@
+// Compute pipelines by module and constants, shared by simulations that follow one another on a device, so
+// that another resolution or another scene compiles only what is new to it.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/pipeline.h"
+
+namespace weft {
+
+class GpuPipelines {
+ public:
+  explicit GpuPipelines(gpu::Device& device) : device_(device) {}
+  /// @param module  path below shaders/, "passes/integrate.comp"
+  /// @param name    for messages and debuggers
+  std::shared_ptr<const gpu::ComputePipeline> get(const std::string& module, const std::string& name,
+                                                  const std::vector<std::uint32_t>& constants);
+  std::size_t count() const { return pipelines_.size(); }
+
+ private:
+  using Key = std::pair<std::string, std::vector<std::uint32_t>>;
+  gpu::Device& device_;
+  std::map<Key, std::shared_ptr<const gpu::ComputePipeline>> pipelines_;
+};
+
+}  // namespace weft
