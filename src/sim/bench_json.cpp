@@ -1,0 +1,69 @@
+// The bench report in the shape of Google Benchmark's JSON, so that its tools compare two runs.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "sim/bench.h"
+
+namespace weft {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add(Json& list, const std::string& name, const std::string& aggregate, std::uint32_t repetitions,
+         double ns, const Json& counters) {
+  Json entry = {{"name", name + "_" + aggregate},
+                {"run_name", name},
+                {"run_type", "aggregate"},
+                {"repetitions", repetitions},
+                {"threads", 1},
+                {"aggregate_name", aggregate},
+                {"aggregate_unit", "time"},
+                {"iterations", repetitions},
+                {"real_time", ns},
+                {"cpu_time", ns},
+                {"time_unit", "ns"}};
+  entry.update(counters);
+  list.push_back(std::move(entry));
+}
+
+}  // namespace
+
+std::string to_benchmark_json(const BenchReport& report) {
+  Json json;
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  json["context"] = {{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))},
+                     {"executable", "weft bench"},
+                     {"num_cpus", std::thread::hardware_concurrency()},
+                     {"device", report.device},
+                     {"driver", report.driver},
+                     {"scene", report.scene},
+                     {"solver", report.solver},
+                     {"copy_gb_per_s", report.copy.best_gb_s()},
+                     {"copy_best", report.copy.best()},
+                     {"copy_command_gb_per_s", report.copy.command_gb_s.median},
+                     {"copy_shader_gb_per_s", report.copy.shader_gb_s.median},
+                     {"copy_buffer_bytes", report.copy.buffer_bytes}};
+  json["benchmarks"] = Json::array();
+  for (const BenchRow& row : report.rows)
+    for (const BenchPass& pass : row.passes) {
+      const std::string name =
+          fmt::format("{}/{}x{}/{}", pass.pass, row.nx, row.ny, row.damping ? "damped" : "undamped");
+      Json counters = {{"ms_spread", pass.ms.spread}, {"bytes", row.bytes}};
+      if (pass.pass == row.passes[0].pass) {
+        counters["ns_per_particle_substep"] = row.ns_per_particle_substep.median;
+        counters["items_per_second"] = row.particle_substeps_per_s;
+        counters["bytes_per_second"] = row.gb_s * 1e9;
+        counters["copy_share"] = row.copy_share;
+        counters["substeps"] = row.substeps;
+      }
+      add(json["benchmarks"], name, "median", report.repetitions, pass.ms.median * 1e6, counters);
+      add(json["benchmarks"], name, "stddev", report.repetitions, pass.ms.spread * 1e6, Json::object());
+    }
+  return json.dump(2);
+}
+
+}  // namespace weft
