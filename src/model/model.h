@@ -23,11 +23,11 @@ struct Grid {
 
 /// One family of springs: all joins of offset (di, dj). Coefficients are unweighted interior values.
 struct SpringKind {
-  int di, dj;              ///< (1,0) (0,1) (1,1) (−1,1) (2,0) (0,2)
-  double stiffness_n_m;    ///< k
+  int di, dj;            ///< (1,0) (0,1) (1,1) (−1,1) (2,0) (0,2)
+  double stiffness_n_m;  ///< k
   double rest_m;
-  double damping_n_s_m;    ///< c = min(beta·k, 2·zeta·sqrt(k·m0/2)), unweighted
-  bool halves_on_boundary; ///< weight ½ along a boundary line (structural, flex)
+  double damping_n_s_m;     ///< c = min(beta·k, 2·zeta·sqrt(k·m0/2)), unweighted
+  bool halves_on_boundary;  ///< weight ½ along a boundary line (structural, flex)
 };
 enum SpringName { kStructuralI, kStructuralJ, kShearDown, kShearUp, kFlexI, kFlexJ, kSpringKindCount };
 
@@ -40,12 +40,12 @@ struct StepBound {
 struct Model {
   Scene scene;
   Grid grid;
-  double interior_mass_kg = 0.0;          ///< m0 = rho·a²
+  double interior_mass_kg = 0.0;              ///< m0 = rho·a²
   std::vector<double> relative_inverse_mass;  ///< m0/m: 1 inside, 2 edge, 4 corner, 0 pinned; shape [count]
   std::array<SpringKind, kSpringKindCount> springs;  ///< kinds with k = 0 are absent
-  double bend_kappa_n_m = 0.0;            ///< kappa = B/a² of an interior line [N/m]
-  double half_thickness_m = 0.0;          ///< of the cloth in contact; 0 without self-collision
-  std::uint64_t spring_count = 0;         ///< springs that exist and do not join two pinned particles
+  double bend_kappa_n_m = 0.0;                       ///< kappa = B/a² of an interior line [N/m]
+  double half_thickness_m = 0.0;                     ///< of the cloth in contact; 0 without self-collision
+  std::uint64_t spring_count = 0;  ///< springs that exist and do not join two pinned particles
   StepBound bound;
 
   double inverse_mass(std::uint32_t particle) const {
@@ -53,7 +53,8 @@ struct Model {
   }
 };
 
-/// Positions [m] and velocities [m/s] at one instant, in particle order. Floats survive the round trip exactly.
+/// Positions [m] and velocities [m/s] at one instant, in particle order. Floats survive the round trip
+/// exactly.
 struct State {
   std::vector<glm::dvec3> position, velocity;
   double time_s = 0.0;

@@ -1,0 +1,153 @@
+// From a Scene to the Model: grid, masses, pins, spring kinds; and the start state, wind and spheres in time.
+#include "model/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "model/springs.h"
+#include "model/step_bound.h"
+
+namespace weft {
+namespace {
+
+constexpr std::uint64_t kParticlesMax = std::uint64_t{1} << 26;
+
+std::string place(const Scene& scene) { return scene.source.empty() ? "scene" : scene.source; }
+
+Grid build_grid(const Scene& scene) {
+  const ClothSection& cloth = scene.cloth;
+  if (cloth.resolution < 2)
+    throw error(Exit::usage, "{}: cloth.resolution is {}; it must be at least 2", place(scene),
+                cloth.resolution);
+  const double spacing_m = cloth.width_m / (cloth.resolution - 1);
+  const double cells = std::round(cloth.height_m / spacing_m);  // halves away from zero
+  if (!(cells >= 1.0))
+    throw error(Exit::usage,
+                "{}: cloth.height is {} m, less than half a cell of {} m; raise it or cloth.resolution",
+                place(scene), cloth.height_m, spacing_m);
+  if ((cells + 1.0) * cloth.resolution > static_cast<double>(kParticlesMax))
+    throw error(
+        Exit::usage,
+        "{}: cloth.resolution is {}, which makes {} x {} particles; at most {} are possible (lower it)",
+        place(scene), cloth.resolution, cloth.resolution, cells + 1.0, kParticlesMax);
+  return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m};
+}
+
+/// m0/m of a free particle: 1/(e(i)·e(j)).
+std::vector<double> relative_inverse_masses(const Grid& grid) {
+  std::vector<double> relative(grid.count());
+  for (std::uint32_t j = 0; j < grid.ny; ++j)
+    for (std::uint32_t i = 0; i < grid.nx; ++i)
+      relative[grid.index(i, j)] = 1.0 / (line_weight(i, grid.nx) * line_weight(j, grid.ny));
+  return relative;
+}
+
+/// Pins every particle within the radius of the pin, on the flat cloth. Returns how many it holds.
+std::uint64_t apply_pin(const PinSection& pin, const Grid& grid, std::vector<double>& relative) {
+  const double x_m = pin.at.x * grid.width_m(), y_m = pin.at.y * grid.height_m();
+  const double reach_m = pin.radius_m * (1.0 + 1e-6);
+  const auto first = [&](double center_m) {
+    return static_cast<std::uint32_t>(std::max(0.0, std::floor((center_m - reach_m) / grid.spacing_m)));
+  };
+  const auto last = [&](double center_m, std::uint32_t count) {
+    return static_cast<std::uint32_t>(
+        std::clamp(std::ceil((center_m + reach_m) / grid.spacing_m), 0.0, count - 1.0));
+  };
+  std::uint64_t held = 0;
+  for (std::uint32_t j = first(y_m); j <= last(y_m, grid.ny); ++j) {
+    for (std::uint32_t i = first(x_m); i <= last(x_m, grid.nx); ++i) {
+      const double dx_m = i * grid.spacing_m - x_m, dy_m = j * grid.spacing_m - y_m;
+      if (dx_m * dx_m + dy_m * dy_m > reach_m * reach_m) continue;
+      relative[grid.index(i, j)] = 0.0;
+      ++held;
+    }
+  }
+  return held;
+}
+
+void apply_pins(const Scene& scene, const Grid& grid, std::vector<double>& relative) {
+  for (std::size_t p = 0; p < scene.pins.size(); ++p) {
+    const PinSection& pin = scene.pins[p];
+    if (apply_pin(pin, grid, relative) == 0)
+      throw error(Exit::usage,
+                  "{}: pins[{}] at ({}, {}) with radius {} m holds no particle; a radius of {} m always does",
+                  place(scene), p, pin.at.x, pin.at.y, pin.radius_m, grid.spacing_m * 0.5 * std::sqrt(2.0));
+  }
+}
+
+std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m, double a, double mass_kg) {
+  const double structural = (1.0 - m.flex) * 0.75 * m.membrane_n_m;
+  const double flex = m.flex * 3.0 * m.membrane_n_m / 16.0;
+  const auto kind = [&](int di, int dj, double k, double rest_m, bool halves) {
+    const double cap = 2.0 * m.damping_ratio_max * std::sqrt(k * mass_kg / 2.0);
+    return SpringKind{di, dj, k, rest_m, std::min(m.damping_s * k, cap), halves};
+  };
+  const double diagonal_m = a * std::numbers::sqrt2;
+  return {kind(1, 0, structural, a, true),          kind(0, 1, structural, a, true),
+          kind(1, 1, m.shear(), diagonal_m, false), kind(-1, 1, m.shear(), diagonal_m, false),
+          kind(2, 0, flex, 2.0 * a, true),          kind(0, 2, flex, 2.0 * a, true)};
+}
+
+}  // namespace
+
+Model build_model(const Scene& scene) {
+  Model model;
+  model.scene = scene;
+  model.grid = build_grid(scene);
+  const double a = model.grid.spacing_m;
+  model.interior_mass_kg = scene.material.density_kg_m2 * a * a;
+  model.relative_inverse_mass = relative_inverse_masses(model.grid);
+  apply_pins(scene, model.grid, model.relative_inverse_mass);
+  model.springs = build_springs(scene.material, a, model.interior_mass_kg);
+  model.bend_kappa_n_m = scene.material.bend_n_m / (a * a);
+  model.half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
+  for_each_spring(model,
+                  [&](const SpringKind&, std::uint32_t, std::uint32_t, double) { ++model.spring_count; });
+  model.bound = step_bound(model);
+  return model;
+}
+
+Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_scale) {
+  WEFT_ASSERT(inverse_mass_scale.size() == model.relative_inverse_mass.size());
+  Model scaled = model;
+  for (std::size_t p = 0; p < inverse_mass_scale.size(); ++p)
+    scaled.relative_inverse_mass[p] *= inverse_mass_scale[p];
+  scaled.bound = step_bound(scaled);
+  return scaled;
+}
+
+State start_state(const Model& model) {
+  const Grid& grid = model.grid;
+  const ClothSection& cloth = model.scene.cloth;
+  const bool vertical = cloth.orientation == Orientation::vertical;
+  State state;
+  state.position.resize(grid.count());
+  state.velocity.assign(grid.count(), glm::dvec3(0.0));
+  constexpr double kPi = std::numbers::pi;
+  for (std::uint32_t j = 0; j < grid.ny; ++j) {
+    const double s = j * grid.spacing_m, wave_j = std::sin(2.0 * kPi * j / (grid.ny - 1) + 0.9);
+    for (std::uint32_t i = 0; i < grid.nx; ++i) {
+      const double u = i * grid.spacing_m - 0.5 * cloth.width_m;
+      const double lift = cloth.imperfection_m * std::sin(3.0 * kPi * i / (grid.nx - 1) + 0.4) * wave_j;
+      const glm::dvec3 offset = vertical ? glm::dvec3(u, 0.5 * grid.height_m() - s, lift)
+                                         : glm::dvec3(u, lift, s - 0.5 * grid.height_m());
+      state.position[grid.index(i, j)] = cloth.center_m + offset;
+    }
+  }
+  return state;
+}
+
+glm::dvec3 wind_at(const Scene& scene, double time_s) {
+  if (!scene.wind) return glm::dvec3(0.0);
+  const WindSection& wind = *scene.wind;
+  if (!(wind.period_s > 0.0)) return wind.velocity_m_s;
+  return wind.velocity_m_s * (1.0 + wind.gust * std::sin(2.0 * std::numbers::pi * time_s / wind.period_s));
+}
+
+glm::dvec3 sphere_center_at(const SphereSection& sphere, double time_s) {
+  return sphere.center_m + time_s * sphere.velocity_m_s;
+}
+
+}  // namespace weft
