@@ -57,6 +57,7 @@ struct Pass {
   void (*mirror_f32)(const MirrorContext&, HostBuffers<float>&);
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
   Tolerance tolerance;
+  bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
 };
 
 }  // namespace weft

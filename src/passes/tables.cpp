@@ -1,0 +1,79 @@
+// Fills the parameter block, the substep table and the state buffers.
+#include "passes/tables.h"
+
+#include "core/error.h"
+#include "passes/coefficients.h"
+
+namespace weft {
+
+shared::Params make_params(const Model& model) {
+  const Scene& scene = model.scene;
+  if (scene.spheres.size() > shared::kMaxSpheres)
+    throw error(Exit::usage, "{}: there are {} [[spheres]]; at most {} are possible (remove some)",
+                scene.source.empty() ? "scene" : scene.source, scene.spheres.size(), shared::kMaxSpheres);
+  const SpringRows<float> springs = spring_rows<float>(model);
+  shared::Params params{};
+  for (std::size_t r = 0; r < springs.structural.size(); ++r) params.structural[r] = springs.structural[r];
+  for (std::size_t r = 0; r < springs.flex.size(); ++r) params.flex[r] = springs.flex[r];
+  params.shear = springs.shear;
+  if (scene.gravity) params.gravity_m_s2 = scene.gravity->acceleration_m_s2;
+  params.inverse_mass_1_kg = static_cast<float>(1.0 / model.interior_mass_kg);
+  if (scene.floor) {
+    params.floor_height_m = static_cast<float>(scene.floor->height_m + model.half_thickness_m);
+    params.floor_friction = static_cast<float>(scene.floor->friction);
+  }
+  params.nx = model.grid.nx;
+  params.ny = model.grid.ny;
+  params.sphere_count = static_cast<shared::uint>(scene.spheres.size());
+  params.row_stride = shared::kRowHeadVec4s + shared::kRowSphereVec4s * params.sphere_count;
+  return params;
+}
+
+void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
+                       std::vector<shared::vec4>& table) {
+  table.clear();
+  for (const KickDrift& kick_drift : rows) {
+    const SubstepRow<float> row = substep_row<float>(model, kick_drift);
+    table.emplace_back(row.alpha_wind, row.decay);
+    table.emplace_back(row.gain, row.drift, 0.0f, 0.0f);
+    for (const SphereRow<float>& sphere : row.spheres) {
+      table.emplace_back(sphere.center, sphere.reach);
+      table.emplace_back(sphere.travel, sphere.friction);
+      table.emplace_back(sphere.velocity, 0.0f);
+    }
+  }
+}
+
+template <class T>
+void load_state(const Model& model, const State& state, HostBuffers<T>& buffers) {
+  const std::size_t count = model.grid.count();
+  WEFT_ASSERT(state.position.size() == count && state.velocity.size() == count);
+  auto& position = buffers[BufferId::position];
+  auto& velocity = buffers[BufferId::velocity];
+  position.resize(count);
+  velocity.resize(count);
+  for (std::size_t p = 0; p < count; ++p) {
+    position[p] = glm::vec<4, T>(glm::vec<3, T>(state.position[p]), T(model.relative_inverse_mass[p]));
+    velocity[p] = glm::vec<4, T>(glm::vec<3, T>(state.velocity[p]), T(0));
+  }
+}
+
+template <class T>
+State store_state(const HostBuffers<T>& buffers, double time_s) {
+  const auto& position = buffers[BufferId::position];
+  const auto& velocity = buffers[BufferId::velocity];
+  State state;
+  state.time_s = time_s;
+  state.position.reserve(position.size());
+  state.velocity.reserve(velocity.size());
+  for (const auto& x : position) state.position.emplace_back(x.x, x.y, x.z);
+  for (const auto& v : velocity) state.velocity.emplace_back(v.x, v.y, v.z);
+  return state;
+}
+
+template void load_state(const Model&, const State&, HostBuffers<float>&);
+template void load_state(const Model&, const State&, HostBuffers<double>&);
+template State store_state(const HostBuffers<float>&, double);
+template State store_state(const HostBuffers<double>&, double);
+
+}  // namespace weft

@@ -1,0 +1,27 @@
+// The model as the device sees it: the parameter block, the frame's substep table, and a state in buffers.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+#include "passes/host_buffers.h"
+#include "passes/pass.h"
+
+namespace weft {
+
+/// Everything in it is computed in double and rounded once.
+/// @throws Error(Exit::usage) when the scene has more spheres than shared::kMaxSpheres
+shared::Params make_params(const Model& model);
+
+/// Replaces `table` with the rows of one frame, in the layout that shared/params.h documents.
+void fill_substep_rows(const Model& model, std::span<const KickDrift> rows, std::vector<shared::vec4>& table);
+
+/// Rounds a state into position (w = relative inverse mass) and velocity (w = 0), both resized to the grid.
+template <class T>
+void load_state(const Model& model, const State& state, HostBuffers<T>& buffers);
+
+/// The state in position and velocity; exact, since double holds every float.
+template <class T>
+State store_state(const HostBuffers<T>& buffers, double time_s);
+
+}  // namespace weft
