@@ -1,0 +1,31 @@
+// leapfrog: kick–drift with half kicks at the frame's ends; the default.
+#include <array>
+
+#include "passes/passes.h"
+#include "solvers/list.h"
+#include "solvers/step_rules.h"
+
+namespace weft {
+namespace {
+
+constexpr std::array kSteps{SolverStep{&integrate, Block::substep}, SolverStep{&normals, Block::frame_end}};
+
+}  // namespace
+
+const Solver leapfrog{
+    .name = "leapfrog",
+    .about = "second order, one pass a substep; the default",
+    .source =
+        "Hairer, Lubich and Wanner, Geometric numerical integration illustrated by the Stormer-Verlet "
+        "method, Acta Numerica 12 (2003), eq. 1.5",
+    .order = 2,
+    .on_gpu = true,
+    .steps = kSteps,
+    .step_max_s = [](const StepBound& bound) { return step_max(bound, 4.0, 4.0); },
+    .schedule = leapfrog_schedule,
+    .frame_f32 = nullptr,
+    .frame_f64 = nullptr,
+    .force_evaluations_per_substep = 1,
+};
+
+}  // namespace weft

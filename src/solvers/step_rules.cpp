@@ -1,0 +1,27 @@
+// Step rules and shared schedules.
+#include "solvers/step_rules.h"
+
+#include <cmath>
+#include <limits>
+
+namespace weft {
+
+double step_max(const StepBound& bound, double scale, double factor) {
+  const double gamma = bound.gamma_1_s;
+  const double rate = gamma + std::sqrt(gamma * gamma + factor * bound.lambda_1_s2);
+  return rate > 0.0 ? scale / rate : std::numeric_limits<double>::infinity();
+}
+
+std::vector<KickDrift> leapfrog_schedule(double start_s, double frame_s, std::uint32_t substeps) {
+  const double h = frame_s / substeps;
+  std::vector<KickDrift> rows;
+  rows.reserve(std::size_t{substeps} + 1);
+  for (std::uint32_t k = 0; k <= substeps; ++k) {
+    const double time_s = start_s + k * h;
+    const bool half = k == 0 || k == substeps;
+    rows.push_back({half ? 0.5 * h : h, k == substeps ? 0.0 : h, time_s, time_s});
+  }
+  return rows;
+}
+
+}  // namespace weft

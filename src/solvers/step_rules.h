@@ -1,0 +1,17 @@
+// Largest stable steps from the model's bound (docs/physics.md "Largest stable step"), and schedules that
+// several solvers share.
+#pragma once
+#include <vector>
+
+#include "solvers/solver.h"
+
+namespace weft {
+
+/// scale / (γ + √(γ² + factor·λ)) [s]; infinite when λ = γ = 0.
+double step_max(const StepBound& bound, double scale, double factor);
+
+/// Leapfrog's frame: kick(½h) drift(h), then n − 1 times kick(h) drift(h), then a closing kick(½h) with
+/// drift 0. The kick at start + k·h sees the wind of that time.
+std::vector<KickDrift> leapfrog_schedule(double start_s, double frame_s, std::uint32_t substeps);
+
+}  // namespace weft
