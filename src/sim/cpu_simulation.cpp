@@ -1,0 +1,109 @@
+// The plan interpreted by the passes' CPU mirrors, in float or double: the reference that the GPU is held to.
+#include "core/error.h"
+#include "passes/tables.h"
+#include "sim/simulation.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+struct Precision;
+
+template <>
+struct Precision<float> {
+  static constexpr std::string_view kName = "f32";
+  static auto mirror(const Pass& pass) { return pass.mirror_f32; }
+  static auto frame(const Solver& solver) { return solver.frame_f32; }
+};
+
+template <>
+struct Precision<double> {
+  static constexpr std::string_view kName = "f64";
+  static auto mirror(const Pass& pass) { return pass.mirror_f64; }
+  static auto frame(const Solver& solver) { return solver.frame_f64; }
+};
+
+template <class T>
+class CpuSimulation final : public Simulation {
+ public:
+  CpuSimulation(const Model& model, const Solver& solver)
+      : model_(model), plan_(compile_plan(model_, solver)) {
+    for (const PlanBuffer& buffer : plan_.buffers)
+      if (held_here(buffer.id)) buffers_[buffer.id].resize(model_.grid.count());
+    write(start_state(model_));
+  }
+
+  const Model& model() const override { return model_; }
+  const Plan& plan() const override { return plan_; }
+  std::string device_name() const override { return fmt::format("CPU reference ({})", Precision<T>::kName); }
+  double time_s() const override { return time_s_; }
+  State read() override { return store_state(buffers_, time_s_); }
+
+  void write(const State& state) override {
+    if (state.position.size() != model_.grid.count() || state.velocity.size() != model_.grid.count())
+      throw error(Exit::internal, "a state of {} particles does not fit a cloth of {}", state.position.size(),
+                  model_.grid.count());
+    load_state(model_, state, buffers_);
+    time_s_ = state.time_s;
+  }
+
+  FrameStats advance(double frame_s, std::uint32_t substeps) override {
+    const Solver& solver = *plan_.solver;
+    const std::vector<KickDrift> rows = solver.schedule(time_s_, frame_s, substeps);
+    FrameStats stats{.substeps = substeps};
+    run_block(Block::frame_start, rows.front(), 0, stats);
+    if (const auto frame = Precision<T>::frame(solver)) {
+      State state = read();
+      frame(model_, state, frame_s, substeps);
+      load_state(model_, state, buffers_);
+      stats.spring_evaluations +=
+          std::uint64_t{solver.force_evaluations_per_substep} * substeps * model_.spring_count;
+    } else {
+      for (std::uint32_t r = 0; r < rows.size(); ++r) run_block(Block::substep, rows[r], r, stats);
+    }
+    time_s_ += frame_s;
+    run_block(Block::frame_end, rows.back(), static_cast<std::uint32_t>(rows.size()) - 1, stats);
+    return stats;
+  }
+
+  std::uint64_t bytes_allocated() const override {
+    std::uint64_t bytes = 0;
+    for (const auto& buffer : buffers_.vec4) bytes += buffer.size() * sizeof(buffer[0]);
+    return bytes;
+  }
+
+ private:
+  /// Parameters and substep rows have no place here: mirrors compute them from the model.
+  static bool held_here(BufferId id) { return id != BufferId::params && id != BufferId::substeps; }
+
+  void run_block(Block block, const KickDrift& row, std::uint32_t row_index, FrameStats& stats) {
+    for (const PlanStep& step : plan_.steps) {
+      const auto mirror = Precision<T>::mirror(*step.pass);
+      if (step.block != block || mirror == nullptr) continue;  // no mirror: the solver's frame runs it
+      mirror({model_, step.constants, row, row_index}, buffers_);
+      if (step.pass->swaps_state) {
+        std::swap(buffers_[BufferId::position], buffers_[BufferId::position_next]);
+        std::swap(buffers_[BufferId::velocity], buffers_[BufferId::velocity_next]);
+      }
+      ++stats.dispatches;
+      stats.spring_evaluations += step.pass->spring_evaluations(model_);
+    }
+  }
+
+  Model model_;
+  Plan plan_;
+  HostBuffers<T> buffers_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_cpu_simulation(const Model& model, const Solver& solver,
+                                                const std::string& precision) {
+  if (precision == "f32") return std::make_unique<CpuSimulation<float>>(model, solver);
+  if (precision == "f64") return std::make_unique<CpuSimulation<double>>(model, solver);
+  throw error(Exit::usage, "solver.precision is \"{}\"; on the CPU reference it must be one of: f32, f64",
+              precision);
+}
+
+}  // namespace weft
