@@ -59,7 +59,7 @@ class CpuSimulation final : public Simulation {
       stats.spring_evaluations +=
           std::uint64_t{solver.force_evaluations_per_substep} * substeps * model_.spring_count;
     } else {
-      for (std::uint32_t r = 0; r < rows.size(); ++r) run_block(Block::substep, rows[r], r, stats);
+      for (std::uint32_t r = 0; r < substeps; ++r) run_block(Block::substep, rows[r], r, stats);
     }
     time_s_ += frame_s;
     run_block(Block::frame_end, rows.back(), static_cast<std::uint32_t>(rows.size()) - 1, stats);

@@ -8,7 +8,9 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{SolverStep{&integrate, Block::substep}, SolverStep{&normals, Block::frame_end}};
+constexpr std::array kSteps{SolverStep{&integrate, Block::substep},
+                            SolverStep{&integrate, Block::frame_end},  // the closing half kick
+                            SolverStep{&normals, Block::frame_end}};
 
 }  // namespace
 
