@@ -60,7 +60,8 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
   for (const std::string_view name : known) {
     const std::size_t allowed = std::max<std::size_t>(1, std::max(word.size(), name.size()) / 3);
     std::size_t distance = edit_distance(word, name);
-    if (begins_with(name, word) || begins_with(word, name)) distance = std::min(distance, allowed);
+    if (begins_with(name, word)) distance = std::min<std::size_t>(distance, 1);  // cut short
+    if (begins_with(word, name)) distance = std::min(distance, allowed);
     if (distance <= allowed && distance < best_distance) {
       best = name;
       best_distance = distance;

@@ -24,15 +24,13 @@ void check_rows(const Draft& draft) {
   const ClothSection& cloth = draft.scene.cloth;
   const double rows = rows_along_height(cloth);
   if (rows >= 2.0 && rows <= 4096.0) return;
-  const bool is_flat = rows < 2.0;
   const char* key = draft.is_given({"cloth"}, "height") ? "height" : "resolution";
   throw error(Exit::usage,
-              "{}: cloth.height {} m is {} particles at {} along {} m; it must be 2 to 4096 ({} "
-              "cloth.resolution or {} "
-              "cloth.height)",
-              draft.place_of({"cloth"}, key), short_number(cloth.height_m), short_number(rows),
-              cloth.resolution, short_number(cloth.width_m), is_flat ? "raise" : "lower",
-              is_flat ? "raise" : "lower");
+              "{}: cloth.height is {}; at cloth.resolution {} and cloth.width {} that is {} rows of "
+              "particles, and it "
+              "must be 2 to 4096 ({} cloth.resolution or cloth.height)",
+              draft.place_of({"cloth"}, key), short_number(cloth.height_m), cloth.resolution,
+              short_number(cloth.width_m), short_number(rows), rows < 2.0 ? "raise" : "lower");
 }
 
 void check_pins(const Draft& draft) {
@@ -58,10 +56,12 @@ void check_wind(const Draft& draft) {
     throw error(Exit::usage,
                 "{}: [wind] needs [air]; it must have air to act through (add [air] with drag = 0.1)",
                 draft.place_of({"wind"}));
-  if (wind->gust > 0.0 && wind->period_s <= 0.0)
+  constexpr double kShortestPeriod_s = 1e-3;
+  if (wind->gust > 0.0 && wind->period_s < kShortestPeriod_s)
     throw error(Exit::usage,
-                "{}: wind.gust is {} without a period; it must have one (add wind.period = 2, in s)",
-                draft.place_of({"wind"}, "gust"), short_number(wind->gust));
+                "{}: wind.gust is {} with a period of {} s; it must have {} s or more (add wind.period = 2)",
+                draft.place_of({"wind"}, "gust"), short_number(wind->gust), short_number(wind->period_s),
+                short_number(kShortestPeriod_s));
 }
 
 void check_spheres(const Draft& draft) {

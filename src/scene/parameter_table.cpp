@@ -45,16 +45,18 @@ const Parameter kTable[] = {
 
     row<&Scene::cloth, &ClothSection::width_m>({.section = "cloth",
                                                 .key = "width",
+                                                .minimum = 1e-3,
                                                 .maximum = 1000,
-                                                .exclusive_minimum = true,
+
                                                 .unit = "m",
                                                 .about = "size of the cloth along i",
                                                 .example = "a flag: 1.5"}),
     row<&Scene::cloth, &ClothSection::height_m>(
         {.section = "cloth",
          .key = "height",
+         .minimum = 1e-3,
          .maximum = 1000,
-         .exclusive_minimum = true,
+
          .unit = "m",
          .about = "size along j; the real height is the nearest whole number of square cells",
          .example = "a flag: 1.0"}),
@@ -254,8 +256,9 @@ const Parameter kTable[] = {
                                                     .example = "[0, 0.5, 0]"}),
     row<&Scene::spheres, &SphereSection::radius_m>({.section = "spheres",
                                                     .key = "radius",
+                                                    .minimum = 1e-4,
                                                     .maximum = 1000,
-                                                    .exclusive_minimum = true,
+
                                                     .required = true,
                                                     .slider_minimum = 0.02,
                                                     .slider_maximum = 1,
@@ -280,8 +283,9 @@ const Parameter kTable[] = {
     row<&Scene::self_collision, &SelfCollisionSection::thickness_m>(
         {.section = "self_collision",
          .key = "thickness",
+         .minimum = 1e-6,
          .maximum = 1,
-         .exclusive_minimum = true,
+
          .required = true,
          .slider_minimum = 0.001,
          .slider_maximum = 0.02,

@@ -72,13 +72,11 @@ bool is_listed(std::string_view words, std::string_view word) {
 }
 
 std::string range_text(const Parameter& p) {
-  if (!p.exclusive_minimum) return fmt::format("{} to {}", short_number(p.minimum), short_number(p.maximum));
-  return fmt::format("greater than {}, at most {}", short_number(p.minimum), short_number(p.maximum));
+  return fmt::format("{} to {}", short_number(p.minimum), short_number(p.maximum));
 }
 
 bool in_range(const Parameter& p, double value) {
-  if (!(value <= p.maximum)) return false;  // catches NaN
-  return p.exclusive_minimum ? value > p.minimum : value >= p.minimum;
+  return value >= p.minimum && value <= p.maximum;  // false for NaN
 }
 
 bool is_allowed(const Parameter& p, const ParameterValue& value) {

@@ -22,8 +22,7 @@ struct Parameter {
   std::string_view key = {};      ///< "density"
   ParameterKind kind = ParameterKind::number;
   double minimum = 0.0,
-         maximum = 0.0;  ///< allowed range of each number, inclusive unless `exclusive_minimum`
-  bool exclusive_minimum = false;
+         maximum = 0.0;                               ///< allowed range of each number, inclusive
   bool required = false;                              ///< in its section
   double slider_minimum = 0.0, slider_maximum = 0.0;  ///< what a slider offers; equal when it offers none
   bool slider_logarithmic = false;
@@ -70,7 +69,7 @@ std::string value_text(const ParameterValue&);
 /// The default as documents show it; "required" when there is none.
 std::string default_text(const Parameter&);
 
-/// The rule as messages show it, without "it must be": "2 to 4096", "greater than 0, at most 1000, in kg/m²".
+/// The rule as messages show it, without "it must be": "2 to 4096", "0.001 to 100, in kg/m²".
 std::string rule_text(const Parameter&);
 
 /// Checks kind, range and finiteness. Empty when the value is allowed, else the rule it breaks with its cure:
