@@ -72,10 +72,9 @@ VkSampleCountFlagBits choose_samples(gpu::Device& device, std::uint32_t wish) {
 
 Renderer::Renderer(gpu::Device& device, const Model& model, VkFormat color_format,
                    VkSampleCountFlagBits samples)
-    : device_(device), model_(model), color_format_(color_format), samples_(samples) {
-  stage_.bounds = scene_bounds(model);
+    : device_(device), model_(&model), color_format_(color_format), samples_(samples) {
   stage_.shadow_size = device.info().software ? kShadowSizeSoftware : kShadowSize;
-  ball_count_ = ball_count(model);
+  set_model(model);
   view_ =
       gpu::Buffer(device, "view", sizeof(shared::View),
                   VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device);
@@ -135,7 +134,7 @@ DrawCounts Renderer::draw(VkCommandBuffer commands, const DrawTarget& target, co
   if (look.heat) layout_->bind_positions(slot, cloth.position);
   const double aspect = double{1.0} * target.extent.width / target.extent.height;
   device_.begin_label(commands, "picture");
-  write_view(commands, make_view(model_, stage_, camera, aspect, time_s, look.heat_full));
+  write_view(commands, make_view(*model_, stage_, camera, aspect, time_s, look.heat_full));
   draw_shadows(commands, cloth, look);
   draw_scene(commands, target, cloth, look);
   device_.end_label(commands);
@@ -215,7 +214,7 @@ void Renderer::draw_scene(VkCommandBuffer commands, const DrawTarget& target, co
   draw_cloth(commands, look.heat ? heat : plain, list, cloth);
   count_cloth(list);
   if (ball_count_ > 0) draw_balls(commands, kBalls);
-  if (model_.scene.floor) {
+  if (model_->scene.floor) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(kFloor).handle());
     vkCmdDraw(commands, 4, 1, 0, 0);
     ++counts_.draws;

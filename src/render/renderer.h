@@ -53,6 +53,10 @@ class Renderer {
   /// The model must outlive the renderer. Colours are written sRGB-encoded: give a UNORM format.
   Renderer(gpu::Device& device, const Model& model, VkFormat color_format, VkSampleCountFlagBits samples);
 
+  /// Another model in place of the one before, on the same pipelines; it must outlive the renderer. Waits for
+  /// the pictures being drawn.
+  void set_model(const Model& model);
+
   /// Records one picture: the shadow map, then the scene. Makes earlier compute writes visible to itself.
   /// @param slot  below kDrawSlots; the picture drawn with this slot before must be finished
   DrawCounts draw(VkCommandBuffer commands, const DrawTarget& target, const DrawBuffers& cloth,
@@ -61,7 +65,7 @@ class Renderer {
   /// Names of the pipelines made so far: only what the scene and the looks asked for.
   std::vector<std::string_view> pipelines() const;
   VkSampleCountFlagBits samples() const { return samples_; }
-  const Model& model() const { return model_; }
+  const Model& model() const { return *model_; }
 
  private:
   enum Kind : std::uint32_t {
@@ -100,7 +104,8 @@ class Renderer {
   void count_cloth(List list);
 
   gpu::Device& device_;
-  const Model& model_;
+  const Model* model_;
+  Grid listed_;  ///< what the index lists are of
   VkFormat color_format_;
   VkSampleCountFlagBits samples_;
   Stage stage_;

@@ -7,6 +7,16 @@
 
 namespace weft {
 
+void Renderer::set_model(const Model& model) {
+  device_.wait_idle();
+  model_ = &model;
+  stage_.bounds = scene_bounds(model);
+  ball_count_ = ball_count(model);
+  if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny) return;
+  for (const List list : {kAllTriangles, kHalfTriangles, kLines}) lists_[list] = {};
+  listed_ = model.grid;
+}
+
 std::string_view Renderer::kind_name(Kind kind) {
   constexpr std::array<std::string_view, kKindCount> kNames{
       "shadow of cloth", "shadow of lines", "shadow of balls", "cloth", "cloth flat", "cloth heat",
@@ -80,9 +90,9 @@ const Renderer::Indices& Renderer::indices(List list) {
                                                        "cloth lines", "ball triangles"};
   const auto generate = [&] {
     switch (list) {
-      case kAllTriangles: return cloth_triangles(model_.grid);
-      case kHalfTriangles: return cloth_half_triangles(model_.grid);
-      case kLines: return cloth_lines(model_.grid);
+      case kAllTriangles: return cloth_triangles(model_->grid);
+      case kHalfTriangles: return cloth_half_triangles(model_->grid);
+      case kLines: return cloth_lines(model_->grid);
       default: return ball_triangles();
     }
   };
