@@ -1,0 +1,236 @@
+// Opening, changing and advancing the scene in the window.
+#include "viewer/running_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "model/measures.h"
+#include "viewer/carry.h"
+
+namespace weft {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+/// Whether the start, and so what displacement is counted from, is the same.
+bool same_start(const ClothSection& a, const ClothSection& b) {
+  return a.width_m == b.width_m && a.height_m == b.height_m && a.resolution == b.resolution &&
+         a.orientation == b.orientation && a.center_m == b.center_m && a.imperfection_m == b.imperfection_m;
+}
+
+}  // namespace
+
+RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const std::string& which)
+    : device_(device),
+      overrides_(std::move(overrides)),
+      pipelines_(std::make_shared<GpuPipelines>(device)),
+      pacer_(1.0 / 60.0) {
+  open(which);
+}
+
+void RunningScene::open(const std::string& which) {
+  const LoadedScene loaded = load_scene(find_scene(which), overrides_);
+  const std::vector<HandPin> pins = std::exchange(hand_pins_, {});
+  hand_.let_go();
+  try {
+    adopt(loaded.scene, false);
+  } catch (...) {
+    hand_pins_ = pins;
+    throw;
+  }
+  which_ = which;
+  warnings_ = loaded.warnings;
+}
+
+void RunningScene::reload(bool new_shaders) {
+  const LoadedScene loaded = load_scene(find_scene(which_), overrides_);
+  const std::shared_ptr<GpuPipelines> before = pipelines_;
+  if (new_shaders) pipelines_ = std::make_shared<GpuPipelines>(device_);
+  hand_.let_go();
+  try {
+    adopt(loaded.scene, true, new_shaders);
+  } catch (...) {
+    pipelines_ = before;
+    throw;
+  }
+  warnings_ = loaded.warnings;
+}
+
+void RunningScene::reset() {
+  release();
+  const State start = start_state(model());
+  simulation_->write(start);
+  const Grid& grid = model().grid;
+  for (HandPin& pin : hand_pins_) {
+    const auto i = static_cast<std::uint32_t>(std::lround(pin.at.x * (grid.nx - 1)));
+    const auto j = static_cast<std::uint32_t>(std::lround(pin.at.y * (grid.ny - 1)));
+    pin.place_m = start.position[grid.index(i, j)];
+  }
+  begin_again();
+}
+
+void RunningScene::apply(const Scene& next) {
+  release();
+  adopt(next, true);
+}
+
+Scene RunningScene::composed(const Scene& scene) const {
+  Scene whole = scene;
+  const double cell_m = scene.cloth.width_m / std::max(1.0, scene.cloth.resolution - 1.0);
+  // Three quarters of a cell hold a particle wherever the pin lies.
+  for (const HandPin& pin : hand_pins_) whole.pins.push_back({.at = pin.at, .radius_m = 0.75 * cell_m});
+  return whole;
+}
+
+/// Everything that can fail comes before the first change.
+void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
+  const Clock::time_point start = Clock::now();
+  const Model model = build_model(composed(next));
+  const Solver& solver = find_solver(next.solver.name);
+  const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth);
+  figures_.kept_plan = same && !anew && simulation_->adopt(model);
+  if (!figures_.kept_plan) {
+    std::optional<State> state;
+    if (keep_state) state = carry_state(simulation_->model(), simulation_->read(), model);
+    std::unique_ptr<GpuSimulation> made =
+        GpuSimulation::create(device_, model, solver, {.pipelines = pipelines_});
+    if (state) made->write(*state);
+    simulation_ = std::move(made);
+    ++version_;
+  }
+  scene_ = next;
+  shown_ = simulation_->model();
+  shown_.scene.pins = next.pins;
+  ++shown_version_;
+  if (pacer_.frame_s() != next.solver.frame_s) pacer_.set_frame(next.solver.frame_s);
+  mid_frame_ = false;
+  pieces_left_ = 0;
+  if (!keep_state) begin_again();
+  figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
+}
+
+void RunningScene::begin_again() {
+  diverged_ = mid_frame_ = false;
+  pieces_left_ = 0;
+  figures_.measured_at_s = -1.0;
+  figures_.frame_ms = 0.0;
+  pacer_.restart();
+}
+
+void RunningScene::toggle_pin(std::uint32_t particle, const glm::dvec3& place_m) {
+  release();
+  const Grid& grid = model().grid;
+  const glm::dvec2 at{static_cast<double>(particle % grid.nx) / (grid.nx - 1),
+                      static_cast<double>(particle / grid.nx) / (grid.ny - 1)};
+  Scene next = scene_;
+  const std::vector<HandPin> before = hand_pins_;
+  if (model().relative_inverse_mass[particle] > 0.0) {
+    hand_pins_.push_back({at, place_m});
+  } else {
+    const auto reaches = [&](const glm::dvec2& pin, double radius_m) {
+      return std::hypot((pin.x - at.x) * grid.width_m(), (pin.y - at.y) * grid.height_m()) <=
+             radius_m * (1.0 + 1e-6);
+    };
+    std::erase_if(hand_pins_, [&](const HandPin& pin) { return reaches(pin.at, 0.75 * grid.spacing_m); });
+    std::erase_if(next.pins, [&](const PinSection& pin) { return reaches(pin.at, pin.radius_m); });
+  }
+  try {
+    adopt(next, true);
+  } catch (...) {
+    hand_pins_ = before;
+    throw;
+  }
+}
+
+void RunningScene::grab(const State& state, const Pick& pick) {
+  const Model before = model();
+  Scene with_hand = composed(scene_);
+  with_hand.pins.push_back(Hand::pin(before.grid, pick.particle));
+  const Model held = build_model(with_hand);
+  if (!simulation_->adopt(held)) {
+    auto made =
+        GpuSimulation::create(device_, held, find_solver(scene_.solver.name), {.pipelines = pipelines_});
+    made->write(state);
+    simulation_ = std::move(made);
+    ++version_;
+  }
+  mid_frame_ = false;
+  pieces_left_ = 0;
+  hand_.grab(before, held, state, pick);
+}
+
+void RunningScene::release() {
+  if (!hand_.holds()) return;
+  hand_.let_go();
+  adopt(scene_, true);
+}
+
+/// The next frame, or the next short piece of one while a hand moves in it.
+void RunningScene::begin_piece() {
+  const double frame_s = scene_.solver.frame_s;
+  const std::uint32_t substeps = simulation_->plan().substeps;
+  if (pieces_left_ == 0) {
+    pieces_ = pieces_left_ = hand_.holds() ? hand_.pieces(model().grid, frame_s, substeps) : 1;
+    frame_wall_ms_ = 0.0;
+  }
+  const double piece_s = frame_s / pieces_;
+  if (hand_.holds()) simulation_->place(hand_.move(piece_s));
+  simulation_->begin_frame(piece_s, (substeps + pieces_ - 1) / pieces_);
+  mid_frame_ = true;
+}
+
+/// Computes the next chunk. Returns whether the frame is unfinished.
+bool RunningScene::continue_frame() {
+  const Clock::time_point start = Clock::now();
+  if (!mid_frame_) begin_piece();
+  mid_frame_ = simulation_->continue_frame();
+  simulation_->wait();
+  frame_wall_ms_ += Milliseconds(Clock::now() - start).count();
+  if (mid_frame_ || --pieces_left_ > 0) return true;
+  figures_.frame_ms =
+      figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * frame_wall_ms_ : frame_wall_ms_;
+  return false;
+}
+
+void RunningScene::advance(double wall_s, double budget_s) {
+  if (paused_ || diverged_) return;
+  pacer_.elapse(wall_s);
+  const Clock::time_point start = Clock::now();
+  while (mid_frame_ || pieces_left_ > 0 || pacer_.frame_due()) {
+    if (!continue_frame()) pacer_.frame_done();
+    if (Seconds(Clock::now() - start).count() >= budget_s) break;
+  }
+  pacer_.give_up_rest();
+  if (mid_frame_) simulation_->refresh_normals();
+}
+
+void RunningScene::step() {
+  if (diverged_) return;
+  while (continue_frame()) {
+  }
+}
+
+void RunningScene::set_paused(bool paused) {
+  paused_ = paused;
+  pacer_.restart();
+}
+
+void RunningScene::measure() {
+  const Clock::time_point start = Clock::now();
+  if (start < next_measure_ || mid_frame_) return;
+  const State state = simulation_->read();
+  std::uint32_t bad = 0;
+  if (!all_finite(state, &bad)) {
+    diverged_ = true;
+  } else {
+    figures_.max_stretch = stretch(simulation_->model(), state).maximum;
+    figures_.measured_at_s = state.time_s;
+  }
+  // At most a twentieth of the time goes into looking.
+  const Clock::time_point end = Clock::now();
+  next_measure_ = end + std::max<Clock::duration>(std::chrono::milliseconds(500), 20 * (end - start));
+}
+
+}  // namespace weft

@@ -1,0 +1,109 @@
+// The scene that runs in the window: what it is made of, its simulation, its pace, and the hand on it.
+// Whatever fails leaves the scene that ran before.
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/reader.h"
+#include "sim/gpu_simulation.h"
+#include "viewer/hand.h"
+#include "viewer/pacing.h"
+
+namespace weft {
+
+/// Numbers about the run that the overlay shows.
+struct RunFigures {
+  double frame_ms = 0.0;        ///< wall time of one simulated frame, smoothed
+  double rebuild_ms = 0.0;      ///< of the latest change of model
+  double max_stretch = 0.0;     ///< read back now and then
+  double measured_at_s = -1.0;  ///< simulated time of that reading; negative: none yet
+  bool kept_plan = false;       ///< the latest change only rewrote parameters
+};
+
+/// A pin made with P, wherever the cloth was then.
+struct HandPin {
+  glm::dvec2 at{0.0};       ///< fractions of width and height
+  glm::dvec3 place_m{0.0};  ///< where it holds the cloth
+};
+
+class RunningScene {
+ public:
+  /// @throws Error as load_scene and GpuSimulation::create do
+  RunningScene(gpu::Device&, SceneOverrides overrides, const std::string& which);
+
+  /// Opens another scene at its start.
+  void open(const std::string& which);
+  /// Reads the file again and carries the state over; with `new_shaders` every pipeline is built anew.
+  void reload(bool new_shaders);
+  /// Back to the start of the scene as it is now set.
+  void reset();
+  /// Changes the scene while it runs; the state is carried over.
+  void apply(const Scene& next);
+  /// Pins the cloth around a particle where it is now, or removes every pin that holds it.
+  /// @param place_m  where that particle is, for the mark that is drawn there
+  void toggle_pin(std::uint32_t particle, const glm::dvec3& place_m);
+
+  /// Lets wall time pass: computes the frames that are due, in chunks, for about `budget_s` at most.
+  void advance(double wall_s, double budget_s);
+  /// Exactly one frame, also while paused.
+  void step();
+  void set_paused(bool paused);
+  bool paused() const { return paused_; }
+  /// Takes a new reading of the stretch if the last one is old enough; stops the scene when it diverged.
+  void measure();
+
+  /// The hand takes hold of the cloth. @param state  as it is now, where `pick` was found
+  void grab(const State& state, const Pick& pick);
+  /// The hand lets go, if it holds anything.
+  void release();
+
+  const Scene& scene() const { return scene_; }
+  /// The model as it is drawn: without the pins that the hand made, which may be anywhere by now.
+  const Model& shown() const { return shown_; }
+  std::uint64_t shown_version() const { return shown_version_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<HandPin>& hand_pins() const { return hand_pins_; }
+  const Model& model() const { return simulation_->model(); }
+  GpuSimulation& simulation() { return *simulation_; }
+  Pacer& pacer() { return pacer_; }
+  Hand& hand() { return hand_; }
+  const Pacer& pacer() const { return pacer_; }
+  const RunFigures& figures() const { return figures_; }
+  const std::string& which() const { return which_; }
+  std::uint64_t version() const { return version_; }  ///< changes when the simulation object does
+  bool diverged() const { return diverged_; }
+  bool mid_frame() const { return mid_frame_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// The scene with the pins made by hand.
+  Scene composed(const Scene& scene) const;
+  /// @param anew  build every pipeline again, even for the same plan
+  void adopt(const Scene& next, bool keep_state, bool anew = false);
+  void begin_again();
+  void begin_piece();
+  bool continue_frame();
+
+  gpu::Device& device_;
+  SceneOverrides overrides_;
+  std::string which_;
+  Scene scene_;
+  Model shown_;
+  std::vector<std::string> warnings_;
+  std::vector<HandPin> hand_pins_;
+  std::shared_ptr<GpuPipelines> pipelines_;
+  std::unique_ptr<GpuSimulation> simulation_;
+  Pacer pacer_;
+  Hand hand_;
+  RunFigures figures_;
+  bool paused_ = false, mid_frame_ = false, diverged_ = false;
+  std::uint32_t pieces_left_ = 0, pieces_ = 1;
+  double frame_wall_ms_ = 0.0;
+  std::uint64_t version_ = 0, shown_version_ = 0;
+  Clock::time_point next_measure_{};
+};
+
+}  // namespace weft
