@@ -15,12 +15,15 @@ constexpr VkDeviceSize kStagingBytes = VkDeviceSize{16} << 20;
 void check_limits(const Device& device, const std::string& name, VkDeviceSize bytes,
                   VkBufferUsageFlags usage) {
   if (bytes == 0) throw error(Exit::internal, "Buffer {} has no bytes; an empty buffer is not created", name);
-  const VkDeviceSize most = device.limits().maxStorageBufferRange;
-  if ((usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0 && bytes > most)
+  const bool storage = (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0;
+  const VkDeviceSize most =
+      storage ? std::min<VkDeviceSize>(device.limits().maxStorageBufferRange, device.buffer_bytes_max())
+              : device.buffer_bytes_max();
+  if (bytes > most)
     throw error(Exit::no_device,
-                "Buffer {} needs {} bytes, and a storage buffer on device \"{}\" holds at most {}; lower the "
+                "Buffer {} needs {} bytes, and a {}buffer on device \"{}\" holds at most {}; lower the "
                 "resolution, or choose another --device",
-                name, bytes, device.info().name, most);
+                name, bytes, storage ? "storage " : "", device.info().name, most);
 }
 
 void copy(Device& device, VkBuffer from, VkDeviceSize from_offset, VkBuffer to, VkDeviceSize to_offset,

@@ -26,6 +26,7 @@ struct Device::Impl {
   bool validating;
   Candidate chosen;
   VkPhysicalDeviceLimits limits{};
+  std::uint64_t buffer_bytes_max = 0;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   VkSemaphore timeline = VK_NULL_HANDLE;
@@ -122,9 +123,11 @@ void Device::Impl::create_device(const std::vector<const char*>& extensions) {
   check(vkCreateDevice(chosen.physical, &info, nullptr, &device), "open the Vulkan device");
   vkGetDeviceQueue(device, chosen.queue_family, 0, &queue);
 
-  VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(chosen.physical, &properties);
-  limits = properties.limits;
+  VkPhysicalDeviceVulkan13Properties v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v13};
+  vkGetPhysicalDeviceProperties2(chosen.physical, &properties);
+  limits = properties.properties.limits;
+  buffer_bytes_max = v13.maxBufferSize;
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(chosen.physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
@@ -169,6 +172,7 @@ VkDevice Device::handle() const { return impl_->device; }
 VkQueue Device::queue() const { return impl_->queue; }
 std::uint32_t Device::queue_family() const { return impl_->chosen.queue_family; }
 const VkPhysicalDeviceLimits& Device::limits() const { return impl_->limits; }
+std::uint64_t Device::buffer_bytes_max() const { return impl_->buffer_bytes_max; }
 Allocator& Device::allocator() { return *impl_->allocator; }
 VkSemaphore Device::timeline() const { return impl_->timeline; }
 std::uint64_t Device::submitted() const { return impl_->submitted; }

@@ -67,6 +67,7 @@ class Device {
   VkQueue queue() const;
   std::uint32_t queue_family() const;
   const VkPhysicalDeviceLimits& limits() const;
+  std::uint64_t buffer_bytes_max() const;  ///< of any one buffer (maxBufferSize)
   Allocator& allocator();
   PipelineCache& pipeline_cache();
 

@@ -92,6 +92,7 @@ Image::Image(Device& device, std::string name, const ImageOptions& options)
     check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "create an image view");
     device.name(VK_OBJECT_TYPE_IMAGE, handle_, name);
   } catch (...) {
+    vkDestroyImageView(device.handle(), view_, nullptr);
     vkDestroyImage(device.handle(), handle_, nullptr);
     device.allocator().release(allocation_);
     throw;

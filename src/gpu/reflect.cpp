@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "gpu/shader.h"
@@ -200,36 +201,39 @@ Module read_module(Words spirv, Words specialised) {
   return module;
 }
 
-std::uint32_t size_of(const Module& module, std::uint32_t id, std::uint32_t matrix_stride);
+constexpr int kDeepest = 32;  // nesting of types; a damaged module may hold a type within itself
 
-std::uint32_t struct_size(const Module& module, std::uint32_t id, const Type& type) {
+std::uint32_t size_of(const Module& module, std::uint32_t id, std::uint32_t matrix_stride, int depth = 0);
+
+std::uint32_t struct_size(const Module& module, std::uint32_t id, const Type& type, int depth) {
   std::uint32_t bytes = 0;
   for (std::uint32_t m = 0; m < type.operands.size(); ++m) {
     const Decorations& member = module.of_member(id, m);
-    const std::uint32_t size = size_of(module, type.operands[m], member.get(kMatrixStride));
+    const std::uint32_t size = size_of(module, type.operands[m], member.get(kMatrixStride), depth + 1);
     bytes = std::max(bytes, member.get(kOffset) + size);
   }
   return bytes;
 }
 
 /// Bytes of a type in a block; 0 for runtime arrays.
-std::uint32_t size_of(const Module& module, std::uint32_t id, std::uint32_t matrix_stride) {
+std::uint32_t size_of(const Module& module, std::uint32_t id, std::uint32_t matrix_stride, int depth) {
+  if (depth > kDeepest) broken("its types nest too deeply");
   const Type& type = type_of(module, id);
   switch (type.op) {
     case kTypeInt:
     case kTypeFloat: return type.operands.at(0) / 8;
-    case kTypeVector: return size_of(module, type.operands.at(0), 0) * type.operands.at(1);
+    case kTypeVector: return size_of(module, type.operands.at(0), 0, depth + 1) * type.operands.at(1);
     case kTypeMatrix: {
-      const std::uint32_t column = size_of(module, type.operands.at(0), 0);
+      const std::uint32_t column = size_of(module, type.operands.at(0), 0, depth + 1);
       return (type.operands.at(1) - 1) * std::max(matrix_stride, column) + column;
     }
     case kTypeArray: {
-      const std::uint32_t element = size_of(module, type.operands.at(0), matrix_stride);
+      const std::uint32_t element = size_of(module, type.operands.at(0), matrix_stride, depth + 1);
       const std::uint32_t stride = module.of(id).get(kArrayStride, element);
       const std::uint32_t count = module.constant(type.operands.at(1));
       return count == 0 ? 0 : (count - 1) * stride + element;
     }
-    case kTypeStruct: return struct_size(module, id, type);
+    case kTypeStruct: return struct_size(module, id, type, depth);
     default: return 0;
   }
 }
@@ -305,10 +309,7 @@ void set_local_size(const Module& module, Reflection& reflection) {
   }
 }
 
-}  // namespace
-
-Reflection reflect(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
-  const Module module = read_module(spirv, constants);
+Reflection interface_of(const Module& module) {
   Reflection reflection;
   for (const Variable& variable : module.variables) {
     const Type& pointer = type_of(module, variable.pointer_type);
@@ -328,6 +329,16 @@ Reflection reflect(std::span<const std::uint32_t> spirv, std::span<const std::ui
   reflection.constant_ids.assign(ids.begin(), ids.end());
   set_local_size(module, reflection);
   return reflection;
+}
+
+}  // namespace
+
+Reflection reflect(std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
+  try {
+    return interface_of(read_module(spirv, constants));
+  } catch (const std::out_of_range&) {  // an operand that must be there is not
+    broken("an instruction is too short");
+  }
 }
 
 }  // namespace weft::gpu
