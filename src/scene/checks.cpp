@@ -8,6 +8,9 @@
 namespace weft {
 namespace {
 
+// A cloth laid exactly on the floor is no mistake, though its last bit may be below.
+constexpr double kRoundOff_m = 1e-9;
+
 void check_required(const Draft& draft) {
   for (const Parameter& parameter : parameters()) {
     if (!parameter.required) continue;
@@ -91,11 +94,11 @@ std::vector<std::string> scene_warnings(const Draft& draft) {
   if (!scene.floor && scene.spheres.empty()) return warnings;
 
   const StartDepths depths = start_depths(scene, half_thickness_m);
-  if (depths.floor_m > 0.0)
+  if (depths.floor_m > kRoundOff_m)
     warnings.push_back(fmt::format("{}: the cloth starts up to {} m below the floor; raise cloth.center",
                                    draft.place_of({"floor"}, "height"), short_number(depths.floor_m)));
   for (std::size_t k = 0; k < depths.sphere_m.size(); ++k)
-    if (depths.sphere_m[k] > 0.0)
+    if (depths.sphere_m[k] > kRoundOff_m)
       warnings.push_back(fmt::format("{}: the cloth starts up to {} m inside spheres.{}; move one of them",
                                      draft.place_of({"spheres", k}), short_number(depths.sphere_m[k]), k));
   return warnings;
