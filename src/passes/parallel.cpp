@@ -11,7 +11,7 @@
 namespace weft {
 namespace {
 
-constexpr std::uint64_t kItemsPerBandMin = 4096;  // below this a wake-up costs more than it saves
+constexpr std::uint64_t kItemsPerBandMin = 2048;  // below this a wake-up costs more than it saves
 constexpr std::uint32_t kRowsPerBandMin = 8;      // each band repeats the springs of the two rows above it
 
 class Pool {
