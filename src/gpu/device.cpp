@@ -1,9 +1,6 @@
 // The logical device: features, queue, timeline, submission.
 #include "gpu/device.h"
 
-#include <spdlog/spdlog.h>
-
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>

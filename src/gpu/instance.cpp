@@ -1,13 +1,12 @@
 // Creating the instance: layers, extensions, and where validation messages go.
 #include "gpu/instance.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
+#include "gpu/log.h"
 
 namespace weft::gpu {
 namespace {
@@ -44,7 +43,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
   const std::string text = data->pMessage != nullptr ? data->pMessage : "(a message without text)";
   static_cast<MessageLog*>(user)->add(text);
   const bool is_error = (severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) != 0;
-  spdlog::log(is_error ? spdlog::level::err : spdlog::level::warn, "Vulkan validation: {}", text);
+  log()->log(is_error ? spdlog::level::err : spdlog::level::warn, "Vulkan validation: {}", text);
   return VK_FALSE;
 }
 

@@ -1,6 +1,5 @@
 // The pipeline cache's file: a header of our own with length and checksum, because drivers trust the
 // blob they are given, then Vulkan's blob.
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -9,6 +8,7 @@
 #include <iterator>
 
 #include "core/error.h"
+#include "gpu/log.h"
 #include "gpu/pipeline.h"
 
 namespace weft::gpu {
@@ -110,7 +110,7 @@ PipelineCache::~PipelineCache() {
   try {
     save();
   } catch (const std::exception& problem) {
-    spdlog::warn("The pipeline cache is not saved: {}", problem.what());
+    log()->warn("The pipeline cache is not saved: {}", problem.what());
   }
   vkDestroyPipelineCache(impl_->device.handle(), impl_->cache, nullptr);
 }
@@ -131,8 +131,8 @@ void PipelineCache::save() {
   if (store(impl_->file, blob))
     impl_->saved_checksum = sum;
   else
-    spdlog::warn("The pipeline cache {} cannot be written; pipelines are compiled anew at every start",
-                 impl_->file.string());
+    log()->warn("The pipeline cache {} cannot be written; pipelines are compiled anew at every start",
+                impl_->file.string());
 }
 
 }  // namespace weft::gpu
