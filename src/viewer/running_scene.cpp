@@ -195,25 +195,26 @@ bool RunningScene::continue_frame() {
 }
 
 void RunningScene::advance(double wall_s, double budget_s) {
-  if (paused_ || diverged_) return;
-  pacer_.elapse(wall_s);
+  if (diverged_ || (paused_ && steps_due_ == 0)) return;
+  if (!paused_) pacer_.elapse(wall_s);
   const Clock::time_point start = Clock::now();
-  while (mid_frame_ || pieces_left_ > 0 || pacer_.frame_due()) {
-    if (!continue_frame()) pacer_.frame_done();
+  const auto due = [&] {
+    return paused_ ? steps_due_ > 0 : mid_frame_ || pieces_left_ > 0 || pacer_.frame_due();
+  };
+  while (due()) {
+    if (!continue_frame()) {
+      if (paused_) --steps_due_;
+      if (!paused_) pacer_.frame_done();
+    }
     if (Seconds(Clock::now() - start).count() >= budget_s) break;
   }
   pacer_.give_up_rest();
   if (mid_frame_) simulation_->refresh_normals();
 }
 
-void RunningScene::step() {
-  if (diverged_) return;
-  while (continue_frame()) {
-  }
-}
-
 void RunningScene::set_paused(bool paused) {
   paused_ = paused;
+  steps_due_ = 0;
   pacer_.restart();
 }
 

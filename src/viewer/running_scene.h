@@ -48,8 +48,8 @@ class RunningScene {
 
   /// Lets wall time pass: computes the frames that are due, in chunks, for about `budget_s` at most.
   void advance(double wall_s, double budget_s);
-  /// Exactly one frame, also while paused.
-  void step();
+  /// Asks for one more frame while paused.
+  void step() { ++steps_due_; }
   void set_paused(bool paused);
   bool paused() const { return paused_; }
   /// Takes a new reading of the stretch if the last one is old enough; stops the scene when it diverged.
@@ -68,8 +68,10 @@ class RunningScene {
   const std::vector<HandPin>& hand_pins() const { return hand_pins_; }
   const Model& model() const { return simulation_->model(); }
   GpuSimulation& simulation() { return *simulation_; }
+  const GpuSimulation& simulation() const { return *simulation_; }
   Pacer& pacer() { return pacer_; }
   Hand& hand() { return hand_; }
+  const Hand& hand() const { return hand_; }
   const Pacer& pacer() const { return pacer_; }
   const RunFigures& figures() const { return figures_; }
   const std::string& which() const { return which_; }
@@ -100,7 +102,7 @@ class RunningScene {
   Hand hand_;
   RunFigures figures_;
   bool paused_ = false, mid_frame_ = false, diverged_ = false;
-  std::uint32_t pieces_left_ = 0, pieces_ = 1;
+  std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
   double frame_wall_ms_ = 0.0;
   std::uint64_t version_ = 0, shown_version_ = 0;
   Clock::time_point next_measure_{};

@@ -1,0 +1,350 @@
+// The main loop: input, simulation, panels, picture, and the pace of it all.
+#include "viewer/application.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "core/error.h"
+#include "gpu/buffer.h"
+#include "gpu/shader.h"
+#include "render/image.h"
+
+namespace weft {
+namespace {
+
+constexpr double kSimulationBudget_s = 0.028;  // between two pictures; a chunk is at most about 50 ms
+constexpr double kRest_s = 0.1;                // between looks at a window that shows nothing new
+constexpr double kAwake_s = 0.5;               // after the last event
+
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::filesystem::path log_file(const ViewerOptions& options) {
+  if (!options.log.empty()) return options.log;
+  const char* file = std::getenv("WEFT_VIEWER_LOG");
+  return file != nullptr ? file : "";
+}
+
+gpu::DeviceOptions device_options(const ViewerOptions& options) {
+  if (options.device == "cpu" || options.device == "native")
+    throw error(Exit::usage,
+                "--device is {}; the window draws what a Vulkan device computes (weft devices lists them; "
+                "weft render "
+                "and weft simulate know {})",
+                options.device, options.device);
+  return {.choice = options.device,
+          .validation = options.validation,
+          .force_staging = options.force_staging,
+          .instance_extensions = Window::instance_extensions(),
+          .device_extensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME}};
+}
+
+/// The device of the window, once its name is known to be allowed.
+const gpu::Device& allowed(const gpu::Device& device) {
+  const char* required = std::getenv("WEFT_REQUIRE_GPU");
+  if (required != nullptr && std::string(required) == "1" && device.info().software)
+    throw error(Exit::no_device,
+                "WEFT_REQUIRE_GPU=1 and the device is {}, a software device; choose a GPU with --device "
+                "(weft devices "
+                "lists them), install its Vulkan driver, or unset WEFT_REQUIRE_GPU",
+                device.info().name);
+  return device;
+}
+
+float content_scale(const Window& window) {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window.handle(), &x, &y);
+  return std::clamp(x, 1.0f, 3.0f);
+}
+
+double display_period_s() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  const int rate = mode != nullptr && mode->refreshRate > 0 ? mode->refreshRate : 60;
+  // A little quicker than the display: where it sets the pace itself, waiting here must not miss its turn.
+  return 0.92 / std::clamp(rate, 30, 240);
+}
+
+}  // namespace
+
+Application::Application(const ViewerOptions& options)
+    : options_(options),
+      log_(log_file(options)),
+      window_("Weft", {options.width, options.height}),
+      device_(device_options(options)),
+      surface_(allowed(device_), window_),
+      swapchain_(device_, surface_, options.present_mode),
+      ui_scale_(content_scale(window_)),
+      running_(device_, options.overrides, options.scene),
+      gui_(device_, window_, swapchain_, ui_scale_),
+      painter_(device_, swapchain_, gui_, options.samples),
+      controls_(window_, gui_) {
+  constant_facts_.device = device_.info().name;
+  constant_facts_.software = device_.info().software;
+  constant_facts_.samples = static_cast<std::uint32_t>(painter_.samples());
+  constant_facts_.scenes = list_scenes();
+  constant_facts_.materials = list_materials();
+  constant_facts_.validating = device_.validating();
+  constant_facts_.present_modes = swapchain_.present_modes();
+  picture_s_ = display_period_s();
+  place_scene();
+  view_.camera = view_.home = default_camera(running_.shown(), view_.area.aspect());
+  window_.set_title("Weft: " + running_.scene().title);
+  if (device_.info().software)
+    view_.say(fmt::format("{} is a software device: no GPU is used", device_.info().name), 6.0);
+  if (!running_.warnings().empty()) view_.say(running_.warnings().front(), 8.0);
+}
+
+template <class Action>
+void Application::attempt(Action&& action) {
+  try {
+    action();
+  } catch (const Error& mistake) {
+    if (mistake.code() == Exit::internal) throw;
+    spdlog::warn("{}", mistake.what());
+    view_.complain(mistake.what());
+    log_.event(fmt::format("refused {}", mistake.what()));
+  }
+}
+
+void Application::run() {
+  while (!window_.should_close() && !time_to_quit()) {
+    const bool resting =
+        running_.paused() && !controls_.busy() && seconds(Clock::now() - last_event_) > kAwake_s;
+    window_.poll(window_.minimised() || resting ? kRest_s : 0.0);
+    const Clock::time_point now = Clock::now();
+    const double elapsed_s = seconds(now - std::exchange(latest_, now));
+    if (window_.minimised()) {  // nothing is computed for nobody; the scene goes on where it was
+      window_.take_events();
+      running_.pacer().restart();
+      log();
+      continue;
+    }
+    if (pictures_ > 0) longest_gap_ms_ = std::max(longest_gap_ms_, 1e3 * elapsed_s);
+    place_scene();
+    handle_input(elapsed_s);
+    attempt([&] { running_.advance(elapsed_s, kSimulationBudget_s); });
+    if (!running_.paused()) running_.measure();
+    gui_.begin_frame();
+    const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
+    if (draw_quit_question(view_)) window_.request_close();
+    paint();
+    handle_panels(wishes);
+    log();
+    pace();
+  }
+  if (!options_.screenshot.empty()) {
+    view_.screenshot = true;
+    gui_.begin_frame();
+    panels_.draw(running_, running_.scene(), facts(), view_);
+    paint();
+  }
+  end_film();
+  device_.wait_idle();
+}
+
+bool Application::time_to_quit() const {
+  return (options_.quit_after_s > 0.0 && seconds(Clock::now() - start_) > options_.quit_after_s) ||
+         (options_.quit_after_frames > 0 && pictures_ >= options_.quit_after_frames);
+}
+
+/// The part of the window that the panel leaves.
+void Application::place_scene() {
+  const WindowSize size = window_.framebuffer();
+  const double ratio = static_cast<double>(size.width) / std::max(1u, window_.size().width);
+  const auto panel = static_cast<std::uint32_t>(std::lround(Panels::kWidth * ui_scale_ * ratio));
+  const std::uint32_t left = view_.panels && size.width > panel + 200 ? panel : 0;
+  const SceneArea area{static_cast<std::int32_t>(left), 0, std::max(1u, size.width - left),
+                       std::max(1u, size.height)};
+  if (area.width == view_.area.width && area.height == view_.area.height) return;
+  view_.area = area;
+  const Camera home = default_camera(running_.shown(), area.aspect());
+  const bool at_home =
+      view_.camera.target_m == view_.home.target_m && view_.camera.yaw_rad == view_.home.yaw_rad &&
+      view_.camera.pitch_rad == view_.home.pitch_rad && view_.camera.distance_m == view_.home.distance_m;
+  view_.home = home;
+  if (at_home) view_.camera = home;
+}
+
+void Application::handle_input(double elapsed_s) {
+  attempt([&] {
+    const ControlWishes wishes = controls_.handle(running_, view_, elapsed_s);
+    if (controls_.busy() || wishes.open_scene > 0) last_event_ = Clock::now();
+    if (wishes.quit) window_.request_close();
+    if (wishes.full_screen) window_.toggle_full_screen();
+    if (wishes.open_scene > 0) open(std::to_string(wishes.open_scene));
+    if (wishes.reload) reload();
+    if (wishes.toggle_video) toggle_video();
+  });
+}
+
+void Application::handle_panels(const PanelWishes& wishes) {
+  attempt([&] {
+    if (wishes.open) open(*wishes.open);
+    if (wishes.reset) running_.reset();
+    if (wishes.toggle_pause) running_.set_paused(!running_.paused());
+    if (wishes.step) running_.step();
+    if (wishes.speed) running_.pacer().set_speed(*wishes.speed);
+    if (wishes.scale)
+      painter_.set_scale(*wishes.scale > 0.0 ? *wishes.scale : painter_.scale(), *wishes.scale <= 0.0);
+    if (wishes.present_mode) swapchain_.set_present_mode(*wishes.present_mode);
+    if (wishes.material) {
+      const std::string text = fmt::format("[cloth]\n[material]\npreset = \"{}\"\n", *wishes.material);
+      pending_ = running_.scene();
+      pending_->material = parse_scene(text, *wishes.material).scene.material;
+    }
+    if (wishes.scene) pending_ = *wishes.scene;
+  });
+  apply_pending(wishes.edit_ended || wishes.material);
+}
+
+/// A slider that is dragged applies at once while that is quick, else when it is let go.
+void Application::apply_pending(bool edit_ended) {
+  constexpr double kQuick_ms = 80.0;
+  if (!pending_ || (!edit_ended && running_.figures().rebuild_ms > kQuick_ms)) return;
+  const Scene next = *std::exchange(pending_, std::nullopt);
+  attempt([&] { running_.apply(next); });
+  ++rebuilds_;
+}
+
+void Application::open(const std::string& which) {
+  pending_.reset();
+  running_.open(which);
+  ++rebuilds_;
+  view_.camera = view_.home = default_camera(running_.shown(), view_.area.aspect());
+  window_.set_title("Weft: " + running_.scene().title);
+  if (!running_.warnings().empty()) view_.say(running_.warnings().front(), 8.0);
+}
+
+void Application::reload() {
+  const bool new_shaders = !options_.shader_dir.empty();
+  if (new_shaders) painter_.reload_shaders(running_);
+  running_.reload(new_shaders);
+  ++rebuilds_;
+  view_.say(new_shaders ? "scene and shaders read again" : "scene read again", 2.0);
+}
+
+void Application::toggle_video() {
+  if (film_) {
+    end_film();
+    return;
+  }
+  film_ = std::make_unique<Film>(free_name(options_.capture_dir, "mp4"));
+  film_start_ = Clock::now();
+  scale_was_automatic_ = painter_.automatic_scale();
+  painter_.set_scale(painter_.scale(), false);  // a film keeps its size
+  view_.filming = true;
+  view_.say(fmt::format("recording {}; V stops", film_->file().string()), 3.0);
+}
+
+void Application::end_film() {
+  if (!film_) return;
+  const std::unique_ptr<Film> film = std::move(film_);
+  view_.filming = false;
+  painter_.set_scale(painter_.scale(), scale_was_automatic_);
+  attempt([&] {
+    film->finish();
+    view_.say(fmt::format("saved {}", film->file().string()));
+    log_.event(fmt::format("film {} pictures={}", film->file().string(), film->pictures()));
+  });
+}
+
+void Application::save_screenshot(const Picture& picture) {
+  const bool last = !options_.screenshot.empty() && (time_to_quit() || window_.should_close());
+  const std::filesystem::path file = last ? options_.screenshot : free_name(options_.capture_dir, "png");
+  write_png(file, picture);
+  view_.say(fmt::format("saved {}", file.string()));
+  log_.event(fmt::format("screenshot {}", file.string()));
+}
+
+void Application::paint() {
+  const double film_s = seconds(Clock::now() - film_start_);
+  const bool screenshot = std::exchange(view_.screenshot, false);
+  std::optional<Painted> painted;
+  // A picture that cannot be drawn is no mistake of a person's: it ends the program with its reason.
+  painted = painter_.paint(running_, window_.framebuffer(),
+                           {.area = view_.area,
+                            .camera = view_.camera,
+                            .look = view_.look,
+                            .screenshot = screenshot,
+                            .film = film_ && film_->wants(film_s)});
+  if (!painted) {
+    view_.screenshot = screenshot;  // next time
+    return;
+  }
+  ++pictures_;
+  attempt([&] {
+    if (painted->screenshot) save_screenshot(*painted->screenshot);
+  });
+  if (!painted->film) return;
+  try {
+    film_->add(std::move(*painted->film), film_s);
+  } catch (const Error& mistake) {
+    end_film();
+    view_.complain(mistake.what());
+  }
+}
+
+/// Displays do not always set the pace (a virtual one never does): wait for the next picture's time.
+void Application::pace() {
+  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(picture_s_));
+  const Clock::time_point now = Clock::now();
+  const double took_s = std::max(seconds(now - latest_), picture_s_);
+  pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;
+  next_picture_ = std::max(next_picture_ + period, now);
+  if (next_picture_ - now > period) next_picture_ = now + period;
+  std::this_thread::sleep_until(next_picture_);
+}
+
+PanelFacts Application::facts() const {
+  PanelFacts facts = constant_facts_;
+  facts.pictures_per_s = pictures_per_s_;
+  facts.draw_ms = painter_.draw_ms();
+  facts.scale = painter_.scale();
+  facts.automatic_scale = painter_.automatic_scale();
+  facts.present_mode = swapchain_.present_mode();
+  if (facts.validating) facts.validation_messages = device_.validation_messages().size();
+  return facts;
+}
+
+void Application::log() {
+  if (!log_.on()) return;
+  const Camera& camera = view_.camera;
+  const auto flag = [](bool on) { return on ? 1 : 0; };
+  const std::string settings = fmt::format(
+      "scene={} paused={} resolution={} speed={:.3f} membrane={:.6g} smooth={} wireframe={} heat={} help={} "
+      "overlay={} "
+      "timings={} panels={} quit_question={} filming={} error={} hand={} hand_pins={} pins={} minimised={} "
+      "size={}x{} rebuilds={}",
+      running_.which(), flag(running_.paused()), running_.model().grid.nx, running_.pacer().speed(),
+      running_.scene().material.membrane_n_m, flag(view_.look.shading == Shading::smooth),
+      flag(view_.look.wireframe), flag(view_.look.heat), flag(view_.help), flag(view_.overlay),
+      flag(view_.timings), flag(view_.panels), flag(view_.ask_quit), flag(view_.filming),
+      flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
+      running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
+      window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
+  const std::string figures = fmt::format(
+      "time_s={:.6f} real_time={:.3f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
+      "scale={:.2f} "
+      "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
+      "stretch={:.5f} "
+      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}",
+      running_.simulation().time_s(), running_.pacer().real_time_factor(),
+      flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
+      running_.figures().frame_ms, painter_.scale(), longest_gap_ms_, running_.figures().rebuild_ms,
+      flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
+      device_.validation_messages().size(), running_.simulation().plan().substeps,
+      running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
+      camera.pitch_rad, camera.distance_m);
+  if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
+}
+
+}  // namespace weft

@@ -1,0 +1,74 @@
+// The window's main loop and everything it owns, in the order in which it is made.
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gpu/device.h"
+#include "viewer/capture.h"
+#include "viewer/controls.h"
+#include "viewer/gui.h"
+#include "viewer/painter.h"
+#include "viewer/panels.h"
+#include "viewer/running_scene.h"
+#include "viewer/state_log.h"
+#include "viewer/swapchain.h"
+#include "viewer/view_state.h"
+#include "viewer/viewer.h"
+#include "viewer/window.h"
+
+namespace weft {
+
+class Application {
+ public:
+  /// @throws Error as run_viewer does
+  explicit Application(const ViewerOptions&);
+  /// Until the window is closed.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void handle_input(double elapsed_s);
+  void handle_panels(const PanelWishes&);
+  void paint();
+  void pace();
+  void open(const std::string& which);
+  void reload();
+  void apply_pending(bool edit_ended);
+  void toggle_video();
+  void save_screenshot(const Picture&);
+  void end_film();
+  void place_scene();
+  PanelFacts facts() const;
+  void log();
+  bool time_to_quit() const;
+  /// Runs what a person asked for; a mistake becomes a message and changes nothing.
+  template <class Action>
+  void attempt(Action&& action);
+
+  ViewerOptions options_;
+  StateLog log_;
+  Window window_;
+  gpu::Device device_;
+  Surface surface_;
+  Swapchain swapchain_;
+  float ui_scale_;
+  RunningScene running_;
+  Gui gui_;
+  Painter painter_;
+  Controls controls_;
+  Panels panels_;
+  ViewState view_;
+  PanelFacts constant_facts_;
+  std::optional<Scene> pending_;
+  std::unique_ptr<Film> film_;
+  bool scale_was_automatic_ = false;
+  Clock::time_point start_ = Clock::now(), latest_ = start_, next_picture_ = start_, film_start_ = start_,
+                    last_event_ = start_;
+  double picture_s_ = 1.0 / 60.0, pictures_per_s_ = 0.0, longest_gap_ms_ = 0.0;
+  std::uint64_t pictures_ = 0, rebuilds_ = 0;
+};
+
+}  // namespace weft

@@ -1,0 +1,184 @@
+// Panels that only show: numbers in the corner, milliseconds a pass, help, messages, marks in the scene.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "viewer/keys.h"
+#include "viewer/panels.h"
+
+namespace weft {
+namespace {
+
+constexpr ImGuiWindowFlags kNote = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoInputs;
+const ImVec4 kWarning{1.0f, 0.72f, 0.30f, 1.0f};
+const ImVec4 kBad{1.0f, 0.45f, 0.40f, 1.0f};
+
+void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
+void line(const ImVec4& color, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  line(text);
+  ImGui::PopStyleColor();
+}
+
+void device_lines(const PanelFacts& facts) {
+  line(facts.device);
+  if (facts.software) line(kWarning, "software device: no GPU is used");
+}
+
+void pace_lines(const RunningScene& running) {
+  const Pacer& pacer = running.pacer();
+  const RunFigures& figures = running.figures();
+  if (running.diverged()) {
+    line(kBad, "diverged: raise the substeps, then R");
+  } else if (running.paused()) {
+    line(kWarning, fmt::format("paused at {:.2f} s", running.simulation().time_s()));
+  } else {
+    line(
+        fmt::format("{:.2f} s, {:.2f} x real time", running.simulation().time_s(), pacer.real_time_factor()));
+    if (pacer.slow_motion())
+      line(kWarning, fmt::format("slow motion: {:.0f} ms for a frame of {:.1f} ms", figures.frame_ms,
+                                 1e3 * running.scene().solver.frame_s / pacer.speed()));
+  }
+}
+
+}  // namespace
+
+void draw_overlay(const RunningScene& running, const PanelFacts& facts, const ViewState&) {
+  const float margin = 10.0f;
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - margin, margin}, ImGuiCond_Always, {1.0f, 0.0f});
+  ImGui::SetNextWindowBgAlpha(0.62f);
+  ImGui::Begin("numbers", nullptr, kNote);
+  const Grid& grid = running.model().grid;
+  const RunFigures& figures = running.figures();
+  device_lines(facts);
+  pace_lines(running);
+  line(fmt::format("{} x {} = {} particles", grid.nx, grid.ny, grid.count()));
+  line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));
+  line(fmt::format("simulation {:.1f} ms a frame", figures.frame_ms));
+  line(fmt::format("drawing {:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.pictures_per_s));
+  if (facts.scale < 0.999) line(fmt::format("drawn at {:.0f} % of the size", 100.0 * facts.scale));
+  if (figures.measured_at_s >= 0.0)
+    line(fmt::format("largest stretch {:.1f} %", 100.0 * figures.max_stretch));
+  if (facts.validating)
+    line(facts.validation_messages > 0 ? kBad : ImGui::GetStyleColorVec4(ImGuiCol_Text),
+         fmt::format("validation: {} messages", facts.validation_messages));
+  ImGui::End();
+}
+
+void draw_pass_timings(const RunningScene& running, const ViewState&) {
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - 10.0f, ImGui::GetIO().DisplaySize.y - 10.0f},
+                          ImGuiCond_Always, {1.0f, 1.0f});
+  ImGui::SetNextWindowBgAlpha(0.75f);
+  ImGui::Begin("pass timings", nullptr, kNote);
+  const Plan& plan = running.simulation().plan();
+  const std::vector<double> ms = running.simulation().step_ms();
+  line("pass          times        ms a frame");
+  ImGui::Separator();
+  double sum_ms = 0.0;
+  if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_SizingFixedFit)) {
+    for (std::size_t k = 0; k < plan.steps.size(); ++k) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      line(std::string(plan.steps[k].pass->name));
+      ImGui::TableNextColumn();
+      line(fmt::format("x {}", plan.steps[k].repeat));
+      ImGui::TableNextColumn();
+      if (k < ms.size()) {
+        line(fmt::format("{:9.3f}", ms[k]));
+        sum_ms += ms[k];
+      }
+    }
+    ImGui::EndTable();
+  }
+  line(ms.empty() ? "this device has no timestamps" : fmt::format("sum {:.3f} ms", sum_ms));
+  ImGui::End();
+}
+
+void draw_help(ViewState& view) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float left = view.panels ? Panels::kWidth * ImGui::GetIO().FontGlobalScale : 0.0f;
+  ImGui::SetNextWindowPos({left + 0.5f * (size.x - left), 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::Begin("Keys and mouse", &view.help,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+  std::string_view group;
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyRow& key : key_rows()) {
+      if (key.keys.empty()) continue;
+      if (key.group != group) {
+        group = key.group;
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        line({0.55f, 0.75f, 1.0f, 1.0f}, std::string(group));
+      }
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      line("  " + std::string(key.keys) + "   ");
+      ImGui::TableNextColumn();
+      line(std::string(key.about));
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void draw_message(ViewState& view) {
+  if (!view.message) return;
+  if (!view.message->is_error && std::chrono::steady_clock::now() > view.message->until) {
+    view.message.reset();
+    return;
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const float left = view.panels ? Panels::kWidth * ImGui::GetIO().FontGlobalScale : 0.0f;
+  const float width = std::max(200.0f, size.x - left - 40.0f);
+  ImGui::SetNextWindowPos({left + 0.5f * (size.x - left), size.y - 14.0f}, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, size.y});
+  ImGui::SetNextWindowBgAlpha(0.90f);
+  ImGui::Begin("message", nullptr, kNote);
+  const ImVec2 wanted = ImGui::CalcTextSize(view.message->text.c_str(), nullptr, false, width - 30.0f);
+  ImGui::PushTextWrapPos(wanted.x + 20.0f);
+  line(view.message->is_error ? kBad : ImGui::GetStyleColorVec4(ImGuiCol_Text), view.message->text);
+  ImGui::PopTextWrapPos();
+  if (view.message->is_error) ImGui::TextDisabled("Esc closes this");
+  ImGui::End();
+}
+
+void draw_marks(const RunningScene& running, const ViewState& view) {
+  const glm::mat4 clip = view.camera.clip(view.area.aspect());
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const auto mark = [&](const glm::dvec3& place_m, ImU32 color) {
+    const glm::vec4 there = clip * glm::vec4(glm::vec3(place_m), 1.0f);
+    if (there.w <= 0.0f) return;
+    const float x = (0.5f + 0.5f * there.x / there.w) * static_cast<float>(view.area.width) +
+                    static_cast<float>(view.area.x);
+    const float y = (0.5f + 0.5f * there.y / there.w) * static_cast<float>(view.area.height) +
+                    static_cast<float>(view.area.y);
+    list->AddCircleFilled({x / pixels.x, y / pixels.y}, 5.0f, color);
+    list->AddCircle({x / pixels.x, y / pixels.y}, 6.5f, IM_COL32(0, 0, 0, 160), 0, 1.5f);
+  };
+  for (const HandPin& pin : running.hand_pins()) mark(pin.place_m, IM_COL32(255, 190, 70, 235));
+  if (running.hand().holds()) mark(running.hand().grip(), IM_COL32(120, 200, 255, 235));
+}
+
+bool draw_quit_question(ViewState& view) {
+  if (!view.ask_quit) return false;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5f * size.x, 0.4f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("Quit?", nullptr,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+  line("Quit Weft?  Enter quits, Esc stays.");
+  const bool yes = ImGui::Button("Quit", {110.0f, 0.0f});
+  ImGui::SameLine();
+  if (ImGui::Button("Stay", {110.0f, 0.0f})) view.ask_quit = false;
+  ImGui::End();
+  return yes;
+}
+
+}  // namespace weft

@@ -1,0 +1,68 @@
+// What is written over and beside the scene: sliders, numbers, timings, help, messages. Panels change
+// nothing themselves: they return what a person asked for.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/reader.h"
+#include "viewer/running_scene.h"
+#include "viewer/view_state.h"
+
+namespace weft {
+
+/// What was asked for in the panels this frame.
+struct PanelWishes {
+  std::optional<Scene> scene;  ///< the same scene with other values
+  std::optional<std::string> open, material;
+  bool edit_ended = false;  ///< the mouse let go of a slider
+  bool reset = false, toggle_pause = false, step = false;
+  std::optional<double> speed;
+  std::optional<double> scale;  ///< of the drawn picture; 0: automatic
+  std::optional<std::string> present_mode;
+};
+
+/// What panels show besides the scene.
+struct PanelFacts {
+  std::string device;
+  bool software = false;
+  double pictures_per_s = 0.0;
+  double draw_ms = 0.0;
+  double scale = 1.0;
+  bool automatic_scale = false;
+  std::uint32_t samples = 1;
+  std::string present_mode;
+  std::vector<std::string> present_modes;
+  std::vector<AssetInfo> scenes, materials;
+  bool validating = false;
+  std::size_t validation_messages = 0;
+};
+
+class Panels {
+ public:
+  /// Width of the panel at the window's left edge [screen units]; the scene takes the rest.
+  static constexpr float kWidth = 330.0f;
+
+  /// All panels that are open.
+  /// @param pending  the scene with edits that are not applied yet, else the running one's
+  PanelWishes draw(const RunningScene&, const Scene& pending, const PanelFacts&, ViewState&);
+
+ private:
+  void settings(const RunningScene&, const Scene& pending, const PanelFacts&, ViewState&, PanelWishes&);
+  void time_controls(const RunningScene&, PanelWishes&);
+  void quick_sliders(Scene&, bool& changed, PanelWishes&);
+  void all_parameters(Scene&, bool& changed, const PanelFacts&, PanelWishes&);
+  void picture_controls(const PanelFacts&, ViewState&, PanelWishes&);
+};
+
+/// Panels that only show.
+void draw_overlay(const RunningScene&, const PanelFacts&, const ViewState&);
+void draw_pass_timings(const RunningScene&, const ViewState&);
+void draw_help(ViewState&);
+void draw_message(ViewState&);
+/// Marks where hands and pins made by hand hold the cloth.
+void draw_marks(const RunningScene&, const ViewState&);
+/// Asks whether to quit. Returns true when the answer is yes.
+bool draw_quit_question(ViewState&);
+
+}  // namespace weft

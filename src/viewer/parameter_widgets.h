@@ -1,0 +1,22 @@
+// A widget for every row of the parameter table, and sections that can be switched on and off.
+#pragma once
+#include <string_view>
+
+#include "scene/parameters.h"
+
+namespace weft {
+
+/// A slider, number field or choice for one parameter, with its unit, and its meaning as a tooltip.
+/// @param label  in place of the key; empty: the key
+/// @return       whether the scene was changed. A value that breaks the row's rule is not taken.
+bool parameter_widget(const Parameter& parameter, Scene& scene, std::size_t item,
+                      std::string_view label = {});
+
+/// All parameters of a section with its switch; list sections item by item.
+/// @return whether the scene was changed
+bool section_widget(std::string_view section, Scene& scene);
+
+/// Adds an optional section with values that show its effect, where the table requires one.
+void add_visible_section(Scene& scene, std::string_view section);
+
+}  // namespace weft
