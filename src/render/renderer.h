@@ -57,6 +57,10 @@ class Renderer {
   /// the pictures being drawn.
   void set_model(const Model& model);
 
+  /// Makes every pipeline now, so that a mistake in a shader shows before anything is drawn with it.
+  /// @throws Error(Exit::usage) with the compiler's messages
+  void make_pipelines();
+
   /// Records one picture: the shadow map, then the scene. Makes earlier compute writes visible to itself.
   /// @param slot  below kDrawSlots; the picture drawn with this slot before must be finished
   DrawCounts draw(VkCommandBuffer commands, const DrawTarget& target, const DrawBuffers& cloth,

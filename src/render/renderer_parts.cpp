@@ -76,6 +76,10 @@ const DrawPipeline& Renderer::pipeline(Kind kind) {
   return made;
 }
 
+void Renderer::make_pipelines() {
+  for (std::uint32_t kind = 0; kind < kKindCount; ++kind) pipeline(static_cast<Kind>(kind));
+}
+
 std::vector<std::string_view> Renderer::pipelines() const {
   std::vector<std::string_view> names;
   for (std::uint32_t kind = 0; kind < kKindCount; ++kind)
