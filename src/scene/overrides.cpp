@@ -40,9 +40,9 @@ Override split(const std::string& text) {
 /// The value as TOML. A bare word where the key takes a word is that word, since shells eat the quotes.
 toml::table parsed_value(const Override& change, const Parameter* parameter) {
   try {
-    toml::table table = toml::parse("value = " + change.value);
+    toml::table table = parse_toml("value = " + change.value, change.place);
     if (table.size() == 1) return table;
-  } catch (const toml::parse_error&) {
+  } catch (const Error&) {
     const bool takes_word =
         parameter != nullptr && (parameter->kind == ParameterKind::word || !parameter->words.empty());
     const bool is_bare = change.value.find_first_of("\"'\\\n\r[]{}#=") == std::string::npos;

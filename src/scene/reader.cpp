@@ -1,10 +1,7 @@
 // Reads scene files: syntax, sections, items and keys, in that order; then overrides, then checks.
 #include "scene/reader.h"
 
-#include <algorithm>
-
 #include "core/error.h"
-#include "core/file.h"
 #include "core/text.h"
 #include "scene/settings.h"
 
@@ -75,34 +72,6 @@ class FileReader {
 };
 
 }  // namespace
-
-toml::table parse_toml(std::string_view text, const std::string& name) {
-  try {
-    return toml::parse(text, name);
-  } catch (const toml::parse_error& mistake) {
-    throw error(Exit::usage, "{}:{}: this is not TOML: {}", name, mistake.source().begin.line,
-                mistake.description());
-  }
-}
-
-std::vector<TableEntry> in_file_order(const toml::table& table) {
-  std::vector<TableEntry> entries;
-  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
-  std::stable_sort(entries.begin(), entries.end(), [](const TableEntry& a, const TableEntry& b) {
-    return a.first->source().begin < b.first->source().begin;
-  });
-  return entries;
-}
-
-std::string read_toml_file(const fs::path& file) {
-  constexpr std::size_t kLongest =
-      1 << 20;  // a scene of a thousand pins has 50 kB; more is another kind of file
-  try {
-    return read_file(file, kLongest);
-  } catch (const Error& failure) {
-    throw error(Exit::usage, "{}; a scene is a TOML file of at most 1 MiB", failure.what());
-  }
-}
 
 LoadedScene parse_scene(std::string_view text, const std::string& name, const SceneOverrides& overrides) {
   Draft draft;

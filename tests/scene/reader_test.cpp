@@ -164,6 +164,23 @@ TEST(Reader, SyntaxMistakesCarryTheirLine) {
   expect_refused("[cloth]\nwidth = 1 2\n", {"scene.toml:2"});
 }
 
+// toml++ 3.3 runs into undefined behaviour on these; they must not reach it.
+TEST(Reader, WhatTheParserCannotBearIsRefusedBeforeIt) {
+  for (const char* text : {"[\ncloth]\n", "[", "[[\ncloth]]", "[ #\n", "\n\n[=\n", "[cloth]\n [\x01]"})
+    expect_refused(text, {"not TOML", "name must follow"});
+  expect_refused("[cloth]\nwidth = 1µ\n", {"scene.toml:2", "in quotes and comments"});
+  expect_refused("\"a\" = '\"'\n\nwidthШ = 1\n", {"scene.toml:3", "in quotes and comments"});
+  expect_refused("title = '''\n[\n'''\nµ", {"scene.toml:4", "in quotes and comments"});
+}
+
+TEST(Reader, OtherLettersMayStandInTextAndComments) {
+  const Scene scene = read("\xEF\xBB\xBF# µ ['''\n[cloth] # é\n[[pins]]\nat = [\n  0, # [\n  0]\n").scene;
+  EXPECT_EQ(scene.pins.size(), 1u);
+  EXPECT_EQ(read("title = \"Stoff für \\\"µ\\\" [\"\n[cloth]\n").scene.title, "Stoff für \"µ\" [");
+  EXPECT_EQ(read("title = '''\n[ µ'''''\n[cloth]\n").scene.title, "[ µ''");
+  EXPECT_EQ(read("title = \"\"\"a\"\"é\\\"\"\"\"  # µ\n[cloth]\n").scene.title, "a\"\"é\"");
+}
+
 TEST(Reader, RequiredKeysAreAskedFor) {
   expect_refused("[cloth]\n[air]\n", {"scene.toml:2: air.drag is missing", "0.1"});
   expect_refused("[cloth]\n[air]\ndrag=1\n[wind]\n", {"scene.toml:4: wind.velocity is missing"});
