@@ -19,11 +19,12 @@ void check_limits(const Device& device, const std::string& name, VkDeviceSize by
   const VkDeviceSize most =
       storage ? std::min<VkDeviceSize>(device.limits().maxStorageBufferRange, device.buffer_bytes_max())
               : device.buffer_bytes_max();
-  if (bytes > most)
+  if (bytes > most) {
     throw error(Exit::no_device,
                 "Buffer {} needs {} bytes, and a {}buffer on device \"{}\" holds at most {}; lower the "
                 "resolution, or choose another --device",
                 name, bytes, storage ? "storage " : "", device.info().name, most);
+  }
 }
 
 void copy(Device& device, VkBuffer from, VkDeviceSize from_offset, VkBuffer to, VkDeviceSize to_offset,
@@ -121,11 +122,12 @@ VkBufferView Buffer::texel_view(VkFormat format) const {
   for (const auto& [known, view] : views_)
     if (known == format) return view;
   const VkDeviceSize texels = bytes_ / texel_bytes(format);
-  if (texels > device_->limits().maxTexelBufferElements)
+  if (texels > device_->limits().maxTexelBufferElements) {
     throw error(Exit::no_device,
                 "Buffer {} holds {} texels, and device \"{}\" reads at most {}; lower the resolution, or "
                 "choose another --device",
                 name_, texels, device_->info().name, device_->limits().maxTexelBufferElements);
+  }
   VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
   info.buffer = handle_;
   info.format = format;

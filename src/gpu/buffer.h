@@ -96,7 +96,7 @@ struct ImageOptions {
 class Image {
  public:
   Image() = default;
-  Image(Device&, std::string name, const ImageOptions&);
+  Image(Device&, const std::string& name, const ImageOptions&);
   ~Image();
   Image(Image&&) noexcept;
   Image& operator=(Image&&) noexcept;

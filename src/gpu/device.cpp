@@ -1,6 +1,7 @@
 // The logical device: features, queue, timeline, submission.
 #include "gpu/device.h"
 
+#include <array>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -81,11 +82,12 @@ void require_device_extensions(const Candidate& chosen, const std::vector<const 
   for (const char* name : wanted) {
     bool found = false;
     for (const auto& e : there) found = found || std::strcmp(e.extensionName, name) == 0;
-    if (!found)
+    if (!found) {
       throw error(Exit::no_device,
                   "Device \"{}\" lacks the extension {}, which the window needs; choose another --device, or "
                   "use a command without a window",
                   chosen.info.name, name);
+    }
   }
 }
 
@@ -211,7 +213,7 @@ std::uint64_t Device::submit(std::span<const VkCommandBuffer> commands, const Su
     return VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle, value, stage, 0};
   };
   const auto wait_info = semaphore(semaphores.wait, 0, semaphores.wait_stage);
-  const VkSemaphoreSubmitInfo signals[] = {
+  const std::array signals = {
       semaphore(impl_->timeline, impl_->submitted + 1, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT),
       semaphore(semaphores.signal, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT)};
   VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
@@ -220,7 +222,7 @@ std::uint64_t Device::submit(std::span<const VkCommandBuffer> commands, const Su
   info.commandBufferInfoCount = static_cast<std::uint32_t>(buffers.size());
   info.pCommandBufferInfos = buffers.data();
   info.signalSemaphoreInfoCount = semaphores.signal != VK_NULL_HANDLE ? 2 : 1;
-  info.pSignalSemaphoreInfos = signals;
+  info.pSignalSemaphoreInfos = signals.data();
   check(vkQueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE), "submit work");
   ++impl_->submissions;
   return ++impl_->submitted;

@@ -65,7 +65,7 @@ std::uint32_t texel_bytes(VkFormat format) {
   }
 }
 
-Image::Image(Device& device, std::string name, const ImageOptions& options)
+Image::Image(Device& device, const std::string& name, const ImageOptions& options)
     : device_(&device), options_(options) {
   check_size(device, name, options);
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};

@@ -62,11 +62,12 @@ std::vector<const char*> wanted_extensions(const std::vector<const char*>& neede
                                            bool& debug_utils) {
   const auto there = extensions_of(nullptr);
   for (const char* name : needed) {
-    if (!contains(there, name))
+    if (!contains(there, name)) {
       throw error(Exit::no_device,
                   "The Vulkan loader lacks the instance extension {}, which the window needs; install the "
                   "device's Vulkan driver (Debian: mesa-vulkan-drivers), or use a command without a window",
                   name);
+    }
   }
   std::vector<const char*> names = needed;
   debug_utils = contains(there, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -100,11 +101,12 @@ void MessageLog::clear() {
 }
 
 Instance::Instance(bool validation, const std::vector<const char*>& extensions) {
-  if (validation && !validation_layer_there())
+  if (validation && !validation_layer_there()) {
     throw error(Exit::no_device,
                 "Validation was asked for, but the layer {} is not installed; install the package "
                 "vulkan-validationlayers (Debian, Ubuntu) or vulkan-validation-layers (Fedora, Arch)",
                 kValidationLayer);
+  }
   const auto names = wanted_extensions(extensions, validation, debug_utils_);
 
   const VkApplicationInfo application{

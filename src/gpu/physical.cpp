@@ -15,7 +15,7 @@ std::string version_text(std::uint32_t version) {
                      VK_API_VERSION_PATCH(version));
 }
 
-std::string uuid_text(const std::uint8_t (&uuid)[VK_UUID_SIZE]) {
+std::string uuid_text(const std::uint8_t* uuid) {
   std::string text;
   for (std::size_t i = 0; i < VK_UUID_SIZE; ++i) {
     if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
@@ -145,6 +145,7 @@ std::vector<Candidate> ranked_devices(VkInstance instance) {
   if (vkEnumeratePhysicalDevices(instance, &count, physical.data()) < 0) return {};
   physical.resize(count);
   std::vector<Candidate> candidates;
+  candidates.reserve(physical.size());
   for (VkPhysicalDevice p : physical) candidates.push_back(examine(p));
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return rank(a.info) < rank(b.info); });
@@ -153,20 +154,22 @@ std::vector<Candidate> ranked_devices(VkInstance instance) {
 }
 
 Candidate choose_device(const std::vector<Candidate>& candidates, const std::string& choice) {
-  if (candidates.empty())
+  if (candidates.empty()) {
     throw error(Exit::no_device,
                 "There is no Vulkan device; install a driver (Debian: mesa-vulkan-drivers, which also brings "
                 "a software device), or choose --device cpu");
+  }
   const Candidate* refused = nullptr;
   for (const Candidate& c : candidates) {
     if (!choice.empty() && !means(choice, c.info)) continue;
     if (c.info.unusable.empty()) return c;
     if (refused == nullptr) refused = &c;
   }
-  if (choice.empty())
+  if (choice.empty()) {
     throw error(Exit::no_device,
                 "No Vulkan device can run Weft; update its driver, or choose --device cpu:{}",
                 table(candidates));
+  }
   if (refused != nullptr)
     throw error(Exit::no_device, "Device \"{}\" is {}, which cannot run Weft: {}; choose one of:{}", choice,
                 refused->info.name, refused->info.unusable, table(candidates));

@@ -48,22 +48,25 @@ void ComputePipeline::Impl::check_limits() const {
   const auto& size = reflection.local_size;
   const std::uint64_t invocations = std::uint64_t{size[0]} * size[1] * size[2];
   if (invocations > limits.maxComputeWorkGroupInvocations || size[0] > limits.maxComputeWorkGroupSize[0] ||
-      size[1] > limits.maxComputeWorkGroupSize[1] || size[2] > limits.maxComputeWorkGroupSize[2])
+      size[1] > limits.maxComputeWorkGroupSize[1] || size[2] > limits.maxComputeWorkGroupSize[2]) {
     throw error(Exit::no_device,
                 "Pass {} has workgroups of {}x{}x{}; device \"{}\" runs at most {} invocations in "
                 "{}x{}x{}; choose another --device",
                 name, size[0], size[1], size[2], device.info().name, limits.maxComputeWorkGroupInvocations,
                 limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupSize[1],
                 limits.maxComputeWorkGroupSize[2]);
+  }
   if (reflection.push_constant_bytes > limits.maxPushConstantsSize)
     throw error(Exit::no_device, "Pass {} pushes {} bytes; device \"{}\" takes at most {}", name,
                 reflection.push_constant_bytes, device.info().name, limits.maxPushConstantsSize);
-  for (const Binding& b : reflection.bindings)
-    if (b.set != 0 || b.count != 1)
+  for (const Binding& b : reflection.bindings) {
+    if (b.set != 0 || b.count != 1) {
       throw error(Exit::internal,
                   "Pass {} binds set {} binding {} with {} descriptors; compute passes use "
                   "set 0 and one descriptor a binding",
                   name, b.set, b.binding, b.count);
+    }
+  }
 }
 
 void ComputePipeline::Impl::create_layouts() {
@@ -151,6 +154,7 @@ void DescriptorSet::Impl::allocate(const ComputePipeline& pipeline) {
   for (const Binding& b : pipeline.reflection().bindings) ++counts[b.type];
   if (counts.empty()) counts[VK_DESCRIPTOR_TYPE_STORAGE_BUFFER] = 1;  // a pool of nothing is not allowed
   std::vector<VkDescriptorPoolSize> sizes;
+  sizes.reserve(counts.size());
   for (const auto& [type, count] : counts) sizes.push_back({type, count});
   VkDescriptorPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
   pool_info.maxSets = 1;

@@ -2,6 +2,7 @@
 // blob they are given, then Vulkan's blob.
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -15,7 +16,7 @@ namespace weft::gpu {
 namespace {
 
 struct FileHeader {
-  char magic[8] = {'W', 'E', 'F', 'T', 'P', 'C', '0', '1'};
+  std::array<char, 8> magic = {'W', 'E', 'F', 'T', 'P', 'C', '0', '1'};
   std::uint64_t bytes = 0;
   std::uint64_t checksum = 0;
 };
@@ -54,8 +55,8 @@ Blob load(const std::filesystem::path& file, const VkPhysicalDeviceProperties& d
   const FileHeader ours;
   if (!stream.read(reinterpret_cast<char*>(&header), sizeof header)) return {};
   Blob blob{std::istreambuf_iterator<char>(stream), {}};
-  const bool whole = std::memcmp(header.magic, ours.magic, sizeof ours.magic) == 0 &&
-                     header.bytes == blob.size() && header.checksum == checksum(blob);
+  const bool whole =
+      header.magic == ours.magic && header.bytes == blob.size() && header.checksum == checksum(blob);
   return whole && is_of(device, blob) ? blob : Blob{};
 }
 

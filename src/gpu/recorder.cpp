@@ -2,6 +2,7 @@
 #include "gpu/recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "core/error.h"
@@ -83,10 +84,11 @@ void Recorder::bind(const ComputePipeline& pipeline, const DescriptorSet& set) {
 void Recorder::dispatch(const ComputePipeline& pipeline, const DescriptorSet& set, std::uint32_t groups_x,
                         std::uint32_t groups_y, std::span<const std::byte> push_constants) {
   const auto& most = device_.limits().maxComputeWorkGroupCount;
-  if (groups_x > most[0] || groups_y > most[1])
+  if (groups_x > most[0] || groups_y > most[1]) {
     throw error(Exit::no_device,
                 "Pass {} needs {}x{} workgroups; device \"{}\" runs at most {}x{}; lower the resolution",
                 pipeline.name(), groups_x, groups_y, device_.info().name, most[0], most[1]);
+  }
   if (push_constants.size() != pipeline.reflection().push_constant_bytes)
     throw error(Exit::internal, "Pass {} takes {} bytes of push constants and was given {}", pipeline.name(),
                 pipeline.reflection().push_constant_bytes, push_constants.size());
@@ -137,9 +139,9 @@ void Timer::stamp(VkCommandBuffer commands, std::uint32_t slot) {
 double Timer::between_ms(std::uint32_t first, std::uint32_t second) const {
   if (!available()) return -1.0;
   const auto stamp_of = [&](std::uint32_t slot, std::uint64_t& ticks) {
-    std::uint64_t answer[2] = {0, 0};  // ticks, then whether they are there
+    std::array<std::uint64_t, 2> answer = {0, 0};  // ticks, then whether they are there
     const VkResult result =
-        vkGetQueryPoolResults(device_.handle(), pool_, slot, 1, sizeof answer, answer, sizeof answer,
+        vkGetQueryPoolResults(device_.handle(), pool_, slot, 1, sizeof answer, answer.data(), sizeof answer,
                               VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT);
     ticks = answer[0];
     return (result == VK_SUCCESS || result == VK_NOT_READY) && answer[1] != 0;

@@ -35,8 +35,8 @@ struct Binding {
 
 /// A module's interface, from decorations (they survive optimisation; names do not).
 struct Reflection {
-  std::vector<Binding> bindings;  ///< ascending by set, then binding
-  std::uint32_t local_size[3] = {1, 1, 1};
+  std::vector<Binding> bindings;            ///< ascending by set, then binding
+  std::uint32_t local_size[3] = {1, 1, 1};  // NOLINT(modernize-avoid-c-arrays): passed on as a pointer
   std::uint32_t push_constant_bytes = 0;
   std::vector<std::uint32_t> constant_ids;  ///< specialization constants, ascending
 };
