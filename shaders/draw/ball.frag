@@ -13,7 +13,7 @@ void main() {
   vec3 n = normalize(direction), to_eye = normalize(view.eye_m - world_m);
   bool pin = is_pin == 1u;
   vec3 base = pin ? vec3(0.34, 0.35, 0.37) : vec3(0.10, 0.26, 0.34);
-  float lit = shadow(world_m, n);
+  float lit = shadow(world_m, n, 0.0);
   float towards = max(dot(n, view.to_light), 0.0);
   vec3 h = normalize(view.to_light + to_eye);
   float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(n, to_eye), 0.0), 5.0);

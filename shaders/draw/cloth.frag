@@ -14,8 +14,8 @@ layout(location = 2) in vec2 flat_m;
 layout(location = 3) in float strain;
 layout(location = 0) out vec4 color;
 
-const vec3 kFront = vec3(0.63, 0.085, 0.065), kFrontPrint = vec3(0.86, 0.52, 0.30);
-const vec3 kBack = vec3(0.78, 0.60, 0.36), kBackPrint = vec3(0.46, 0.22, 0.12);
+const vec3 kFront = vec3(0.56, 0.050, 0.042), kFrontPrint = vec3(0.85, 0.60, 0.38);
+const vec3 kBack = vec3(0.74, 0.58, 0.36), kBackPrint = vec3(0.42, 0.17, 0.09);
 
 // Blue where compressed, white at rest, red where stretched.
 vec3 heat_color(float s) {
@@ -46,7 +46,7 @@ vec3 fabric(bool front) {
   base = mix(ink, base, smoothstep(0.8, 1.2, min(edge.x, edge.y)) * 0.85 + 0.15);
   vec2 thread = flat_m * (140.0 / size), tw = fwidth(thread);
   float visible = clamp(1.0 - 1.6 * max(tw.x, tw.y), 0.0, 1.0);
-  return base * (1.0 + visible * 0.22 * (filtered_checker(thread, tw) - 0.5));
+  return base * (1.0 + visible * 0.15 * (filtered_checker(thread, tw) - 0.5));
 }
 
 void main() {
@@ -59,16 +59,15 @@ void main() {
 
   vec3 base = kHeat ? heat_color(strain) : fabric(gl_FrontFacing);
   float towards = dot(n, view.to_light);
-  float lit = shadow(world_m, dot(plane, view.to_light) < 0.0 ? -plane : plane);
+  float lit = shadow(world_m, towards < 0.0 ? -n : n, kFlat ? 0.0 : 0.3 * view.spacing_m);
   vec3 h = normalize(view.to_light + to_eye);
   float grazing = pow(clamp(1.0 - dot(n, to_eye), 0.0, 1.0), 3.0);
   float open = ball_occlusion(world_m, n);
 
-  float wrapped = max((towards + 0.15) / 1.15, 0.0);
   vec3 through = base * base * (0.42 * max(-towards, 0.0));
-  vec3 light = kKey * lit * (base * wrapped * 0.52 + through);
+  vec3 light = kKey * lit * (base * max(towards, 0.0) * 0.56 + through);
   light += base * mix(kFloorFill, kSkyFill, 0.5 + 0.5 * n.y) * (0.35 + 0.65 * open);
-  light += kKey * lit * 0.05 * pow(max(dot(n, h), 0.0), 24.0) * step(0.0, towards);
+  light += kKey * lit * (0.008 + 0.04 * base) * pow(max(dot(n, h), 0.0), 18.0) * step(0.0, towards);
   light += kRim * grazing * (0.10 + 0.35 * base) * (0.6 + 0.4 * n.y);
   color = to_screen(light);
 }

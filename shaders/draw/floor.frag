@@ -11,12 +11,13 @@ void main() {
   vec3 n = vec3(0.0, 1.0, 0.0), to_eye = normalize(view.eye_m - world_m);
   vec2 square = world_m.xz / view.checker_m;
   float check = filtered_checker(square, fwidth(square));
-  vec3 base = mix(vec3(0.30, 0.31, 0.33), vec3(0.58, 0.575, 0.56), check);
-  float lit = shadow(world_m, n);
+  vec3 base = mix(vec3(0.20, 0.21, 0.23), vec3(0.47, 0.465, 0.45), check);
+  float lit = shadow(world_m, n, 0.0);
   float open = ball_occlusion(world_m, n);
   vec3 light = base * (kKey * lit * view.to_light.y * 0.42 + kSkyFill * open);
   float sheen = 0.03 + 0.30 * pow(1.0 - max(to_eye.y, 0.0), 5.0);
   light += sheen * sky(reflect(-to_eye, n)) * (0.4 + 0.6 * lit);
   float away = length(world_m.xz - view.focus_m.xz) / view.fade_m;
+  light *= 0.72 + 0.28 * exp(-14.0 * away * away);  // a pool of light where the scene is
   color = to_screen(mix(kHorizon, light, exp(-away * away)));
 }

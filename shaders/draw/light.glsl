@@ -2,18 +2,18 @@
 #include "view.glsl"
 
 // Colours are linear; the palette lives here so that a picture can be retuned in one place.
-const vec3 kHorizon = vec3(0.80, 0.81, 0.81);
-const vec3 kZenith = vec3(0.16, 0.29, 0.46);
-const vec3 kGround = vec3(0.42, 0.40, 0.38);  // below the horizon where there is no floor
-const vec3 kKey = vec3(3.00, 2.72, 2.34);     // the sun, slightly warm
-const vec3 kSkyFill = vec3(0.46, 0.55, 0.68);
-const vec3 kFloorFill = vec3(0.32, 0.28, 0.24);
+const vec3 kHorizon = vec3(0.90, 0.88, 0.84);
+const vec3 kZenith = vec3(0.10, 0.23, 0.42);
+const vec3 kGround = vec3(0.13, 0.16, 0.21);  // below the horizon where there is no floor
+const vec3 kKey = vec3(3.00, 2.74, 2.38);     // the sun, slightly warm
+const vec3 kSkyFill = vec3(0.47, 0.54, 0.63);
+const vec3 kFloorFill = vec3(0.30, 0.26, 0.23);
 const vec3 kRim = vec3(0.55, 0.66, 0.80);
 
 vec3 sky(vec3 direction) {
   float up = direction.y;
-  vec3 above = mix(kHorizon, kZenith, pow(clamp(up, 0.0, 1.0), 0.62));
-  vec3 below = mix(kHorizon, kGround, 1.0 - exp(-4.0 * max(-up, 0.0)));
+  vec3 above = mix(kZenith, kHorizon, exp(-5.0 * max(up, 0.0)));
+  vec3 below = mix(kGround, kHorizon, exp(-5.5 * max(-up, 0.0)));
   return up > 0.0 ? above : below;
 }
 

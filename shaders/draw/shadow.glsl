@@ -14,11 +14,12 @@ vec2 disc(int k, int n, float turn) {
   return r * vec2(cos(a), sin(a));
 }
 
-// 1 = lit, 0 = in shadow. `n` faces the light; the lookup starts a little above the surface.
+// 1 = lit, 0 = in shadow. `n` faces the light; the lookup starts `lift_m` above the surface, so that a coarse
+// mesh does not shade its own smooth curve.
 // Loops of zero turns, not branches: a software driver runs both sides of a branch, but skips a loop.
-float shadow(vec3 p, vec3 n) {
+float shadow(vec3 p, vec3 n, float lift_m) {
   float slope = sqrt(clamp(1.0 - dot(n, view.to_light) * dot(n, view.to_light), 0.0, 1.0));
-  vec4 s = view.shadow_clip * vec4(p + n * (view.shadow_texel_m * (1.0 + 1.5 * slope)), 1.0);
+  vec4 s = view.shadow_clip * vec4(p + n * (view.shadow_texel_m * (1.0 + 1.5 * slope) + lift_m * slope), 1.0);
   vec2 at = s.xy * 0.5 + 0.5;
   float texel = 1.0 / float(textureSize(shadow_depth, 0).x);
   bool inside = all(lessThan(abs(s.xyz - vec3(0, 0, 0.5)), vec3(1.0, 1.0, 0.5)));

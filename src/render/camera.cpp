@@ -10,7 +10,7 @@ namespace weft {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kMargin = 1.10;  // air around the scene, as a factor on the distance
+constexpr double kMargin = 1.04;  // air around the scene, as a factor on the distance
 
 void include(Bounds& bounds, const glm::dvec3& low, const glm::dvec3& high) {
   bounds.low = glm::min(bounds.low, low);
@@ -109,7 +109,7 @@ Camera default_camera(const Model& model, double aspect) {
   Camera camera;
   camera.target_m = bounds.middle();
   camera.yaw_rad = 30.0 * kDegree;
-  camera.pitch_rad = (lies ? 20.0 : 11.0) * kDegree;
+  camera.pitch_rad = (lies ? 16.5 : 9.0) * kDegree;
   const double tan_y = std::tan(0.5 * camera.fov_y_rad), tan_x = tan_y * aspect;
   double distance = 0.0;
   for (int corner = 0; corner < 8; ++corner) {

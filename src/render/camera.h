@@ -20,7 +20,7 @@ struct Camera {
   glm::dvec3 target_m{0.0};
   double yaw_rad = 0.0, pitch_rad = 0.0;
   double distance_m = 3.0;
-  double fov_y_rad = 0.56;  ///< angle between the top and the bottom of the picture
+  double fov_y_rad = 0.68;  ///< angle between the top and the bottom of the picture
 
   glm::dvec3 forward() const;
   glm::dvec3 right() const;

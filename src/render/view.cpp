@@ -95,7 +95,7 @@ shared::View make_view(const Model& model, const Stage& stage, const Camera& cam
   view.floor_m =
       model.scene.floor ? static_cast<float>(model.scene.floor->height_m - kFloorGap * size) : 0.0f;
   view.checker_m = static_cast<float>(checker_m(size));
-  view.fade_m = static_cast<float>(6.0 * stage.bounds.radius_m());
+  view.fade_m = static_cast<float>(9.0 * stage.bounds.radius_m());
   view.heat_full = static_cast<float>(heat_full);
   view.cloth_m = glm::vec2(model.grid.width_m(), model.grid.height_m());
   view.spacing_m = static_cast<float>(model.grid.spacing_m);
