@@ -15,9 +15,9 @@ bool is_key_start(char c) {
 }
 
 /// Walks over TOML text outside of strings and comments. toml++ 3.3 assumes, without looking, that what
-/// stands there is ASCII and that a name follows a section's '['; in its release build a file that breaks
-/// this is undefined behaviour (found by fuzzing). The walk refuses exactly such files. Only what comes
-/// before the first mistake of syntax matters, since the parser stops there.
+/// stands there is ASCII, that a name follows a section's '[', and that no '}' ends an array; in its release
+/// build a file that breaks this is undefined behaviour (found by fuzzing). The walk refuses exactly such
+/// files. Only what comes before the first mistake of syntax matters, since the parser stops there.
 class Walk {
  public:
   Walk(std::string_view text, const std::string& name) : text_(text), name_(name) {
@@ -28,13 +28,12 @@ class Walk {
     bool line_is_blank = true;
     while (at_ < text_.size()) {
       const char c = text_[at_];
-      if (c == '[' && line_is_blank && depth_ == 0) check_header();
+      if (c == '[' && line_is_blank && open_.empty()) check_header();
       if (static_cast<unsigned char>(c) >= 0x80)
         refuse("only text in quotes and comments may hold other letters than ASCII");
       line_is_blank = c == '\n' || (line_is_blank && (c == ' ' || c == '\t'));
       line_ += c == '\n' ? 1 : 0;
-      depth_ += c == '[' || c == '{' ? 1 : 0;
-      depth_ -= c == ']' || c == '}' ? 1 : 0;
+      match_bracket(c);
       if (c == '#')
         at_ = std::min(text_.find('\n', at_), text_.size());
       else if (c == '"' || c == '\'')
@@ -47,6 +46,14 @@ class Walk {
  private:
   [[noreturn]] void refuse(std::string_view rule) const {
     throw error(Exit::usage, "{}:{}: this is not TOML: {}", name_, line_, rule);
+  }
+
+  void match_bracket(char c) {
+    if (c == '[' || c == '{') open_ += c;
+    if (c != ']' && c != '}') return;
+    const char opening = c == ']' ? '[' : '{';
+    if (open_.empty() || open_.back() != opening) refuse(fmt::format("a '{}' closes no '{}'", c, opening));
+    open_.pop_back();
   }
 
   void check_header() const {
@@ -82,7 +89,8 @@ class Walk {
   std::string_view text_;
   const std::string& name_;
   std::size_t at_ = 0;
-  int line_ = 1, depth_ = 0;
+  int line_ = 1;
+  std::string open_;  ///< brackets not yet closed, innermost last
 };
 
 }  // namespace

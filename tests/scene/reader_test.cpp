@@ -168,6 +168,8 @@ TEST(Reader, SyntaxMistakesCarryTheirLine) {
 TEST(Reader, WhatTheParserCannotBearIsRefusedBeforeIt) {
   for (const char* text : {"[\ncloth]\n", "[", "[[\ncloth]]", "[ #\n", "\n\n[=\n", "[cloth]\n [\x01]"})
     expect_refused(text, {"not TOML", "name must follow"});
+  expect_refused("v=[}", {"scene.toml:1", "closes no"});
+  expect_refused("[cloth]\ncenter = [1,\n}", {"scene.toml:3", "closes no"});
   expect_refused("[cloth]\nwidth = 1µ\n", {"scene.toml:2", "in quotes and comments"});
   expect_refused("\"a\" = '\"'\n\nwidthШ = 1\n", {"scene.toml:3", "in quotes and comments"});
   expect_refused("title = '''\n[\n'''\nµ", {"scene.toml:4", "in quotes and comments"});
