@@ -3,7 +3,7 @@
 #include "../shared/pass.glsl"
 
 // One substep in one pass over memory: the springs' force by gather, kick, drift, contact.
-// Each invocation writes its own particle of the *_next buffers and reads only the others: no races.
+// Each invocation writes its own particles of the *_next buffers and reads only the others: no races.
 // Source: docs/physics.md "Time"; every operation's order is docs/float-form.md.
 
 READS (vec4, substeps)
@@ -16,38 +16,60 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
 
 #include "../shared/effects.glsl"
+layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
 
-vec3 kicked(vec3 v0, vec3 F, float inverse_mass, uint row) {
-  precise vec3 acc = F * inverse_mass;
-  if (gravity) acc = acc + params.gravity_m_s2;
-  if (wind) acc = acc + substeps[row].xyz;
-  precise vec3 gain = substeps[row + 1u].x * acc;
+// The dispatch's row of the table and what else is the same for all particles, read once.
+struct Step {
+  uint row;
+  float inverse_mass, decay, gain, drift;
+  vec3 alpha_wind, gravity_m_s2;
+};
+
+Step step_of(uint row) {
+  vec4 air_row = substeps[row], times = substeps[row + 1u];
+  return Step(row, params.inverse_mass_1_kg, air_row.w, times.x, times.y, air_row.xyz, params.gravity_m_s2);
+}
+
+vec3 kicked(Step s, vec3 v0, vec3 F, float w) {
+  precise vec3 acc = F * w;
+  if (gravity) acc = acc + s.gravity_m_s2;
+  if (wind) acc = acc + s.alpha_wind;
+  precise vec3 gain = s.gain * acc;
   precise vec3 v = v0;
-  if (air) v = substeps[row].w * v;
+  if (air) v = s.decay * v;
   v = v + gain;
   return v;
 }
 
-void main() {
-  uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
-  if (i >= params.nx || j >= params.ny) return;
-  uint p = j * params.nx + i;
-  uint row = row_index * params.row_stride;
-
-  vec4 x0 = position[p];
-  vec4 v0 = velocity[p];
-  precise float w = x0.w * params.inverse_mass_1_kg;
-  precise vec3 x1 = x0.xyz;
-  precise vec3 v = v0.xyz;
+void move(Step s, Column c, inout March m) {
+  float relative = position[m.p].w;
+  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
+  precise vec3 F = spring_force(c, m);
+  precise float w = relative * s.inverse_mass;
+  precise vec3 x1 = x0;
+  precise vec3 v = v0;
   if (!pins || w != 0.0) {
-    v = kicked(v0.xyz, spring_force(i, j, p, End(x0.xyz, v0.xyz)), w, row);
-    float h = substeps[row + 1u].y;
-    precise vec3 drift = h * v;
-    x1 = x0.xyz + drift;
-    if ((spheres || floor_contact) && h > 0.0) contact(row, x0.xyz, x1, v);
+    v = kicked(s, v0, F, w);
+    precise vec3 travelled = s.drift * v;
+    x1 = x0 + travelled;
+    if ((spheres || floor_contact) && s.drift > 0.0) contact(s.row, x0, x1, v);
   }
-  position_next[p] = vec4(x1, x0.w);
-  velocity_next[p] = vec4(v, 0.0);
+  position_next[m.p] = vec4(x1, relative);
+  velocity_next[m.p] = vec4(v, 0.0);
+}
+
+void main() {
+  uint i = gl_GlobalInvocationID.x, first = gl_GlobalInvocationID.y * rows;
+  if (i >= params.nx || first >= params.ny) return;
+  Step s = step_of(row_index * params.row_stride);
+  Column c = column_at(i);
+  March m = march_from(c, first);
+  uint last = min(first + rows, c.ny) - 1u;
+  while (true) {
+    move(s, c, m);
+    if (m.j >= last) break;
+    step_down(c, m);
+  }
 }

@@ -1,4 +1,5 @@
-// The springs' force on one particle, gathered over its 12 neighbours in the order of docs/float-form.md.
+// The springs' force on a particle, gathered over its 12 neighbours in the order of docs/float-form.md, marching
+// down a column of particles so that what one row loaded and computed serves the rows below.
 // The including pass declares READS(vec4, position) and READS(vec4, velocity) first.
 
 float dot3(vec3 a, vec3 b) {
@@ -42,65 +43,161 @@ vec3 pair_force(vec3 k, End a, End b) {
   return f;
 }
 
-// Row of params.structural for a pair along a line of `count` particles whose first end is at `first`.
-// Chosen by comparisons of uniform loads: a row index that differs between lanes would be a gather.
-vec3 structural_row(uint direction, bool boundary, uint first, uint count) {
-  uint base = direction * 6u;
-  if (!bending) return boundary ? params.structural[base + 3u].xyz : params.structural[base].xyz;
-  bool before = first >= 1u, after = first + 2u < count;
-  vec3 none = boundary ? params.structural[base + 3u].xyz : params.structural[base].xyz;
-  vec3 one = boundary ? params.structural[base + 4u].xyz : params.structural[base + 1u].xyz;
-  vec3 two = boundary ? params.structural[base + 5u].xyz : params.structural[base + 2u].xyz;
+// Coefficients (K, L, c) of every pair a column of particles has, read once. Chosen by comparisons of uniform
+// loads: an index that differs between lanes would be a gather.
+struct Column {
+  uint nx, ny, i;
+  bool left, right, left2, right2;      // whether there are neighbours one and two columns away
+  vec3 down_none, down_one, down_two;   // f01 that 0, 1, 2 bending triples lean on
+  vec3 right_inner, right_edge;         // f10(i, j) inside and on the first and last row
+  vec3 left_inner, left_edge;           // f10(i-1, j)
+  vec3 right2_inner, right2_edge;       // f20(i, j)
+  vec3 left2_inner, left2_edge;         // f20(i-2, j)
+  vec3 down2;                           // f02
+  vec3 shear_left, shear_right;
+};
+
+// Row of params.structural along i for the pair whose first particle is at column `first`.
+vec3 row_along_i(uint first, bool boundary, uint nx) {
+  vec3 none = boundary ? params.structural[3].xyz : params.structural[0].xyz;
+  if (!bending) return none;
+  vec3 one = boundary ? params.structural[4].xyz : params.structural[1].xyz;
+  vec3 two = boundary ? params.structural[5].xyz : params.structural[2].xyz;
+  bool before = first >= 1u, after = first + 2u < nx;
   return before && after ? two : (before || after ? one : none);
 }
 
-vec3 flex_row(uint direction, bool boundary) {
-  return boundary ? params.flex[direction * 2u + 1u].xyz : params.flex[direction * 2u].xyz;
+Column column_at(uint i) {
+  const vec3 absent = vec3(0.0);
+  Column c;
+  c.nx = params.nx;
+  c.ny = params.ny;
+  c.i = i;
+  c.left = i >= 1u;
+  c.right = i + 1u < c.nx;
+  c.left2 = i >= 2u;
+  c.right2 = i + 2u < c.nx;
+  bool edge = !c.left || !c.right;
+  c.down_none = edge ? params.structural[9].xyz : params.structural[6].xyz;
+  c.down_one = edge ? params.structural[10].xyz : params.structural[7].xyz;
+  c.down_two = edge ? params.structural[11].xyz : params.structural[8].xyz;
+  c.right_inner = c.right ? row_along_i(i, false, c.nx) : absent;
+  c.right_edge = c.right ? row_along_i(i, true, c.nx) : absent;
+  c.left_inner = c.left ? row_along_i(i - 1u, false, c.nx) : absent;
+  c.left_edge = c.left ? row_along_i(i - 1u, true, c.nx) : absent;
+  c.right2_inner = c.right2 ? params.flex[0].xyz : absent;
+  c.right2_edge = c.right2 ? params.flex[1].xyz : absent;
+  c.left2_inner = c.left2 ? params.flex[0].xyz : absent;
+  c.left2_edge = c.left2 ? params.flex[1].xyz : absent;
+  c.down2 = edge ? params.flex[3].xyz : params.flex[2].xyz;
+  c.shear_left = c.left ? params.shear.xyz : absent;
+  c.shear_right = c.right ? params.shear.xyz : absent;
+  return c;
 }
 
-// The sum of all pairs' forces [N] at particle (i, j), whose own end is `own`.
-vec3 spring_force(uint i, uint j, uint p, End own) {
+// What marching down a column carries from row to row: the particles that the next rows meet again, and the
+// forces already known. Named by their offset from the row's own particle.
+struct March {
+  uint j, p;
+  End own, down1, down2;  // (i, j), (i, j+1), (i, j+2)
+  End left_up, left, left_down, right_up, right, right_down;
+  vec3 f01_up, f02_up1, f02_up2;  // f01(i, j-1), f02(i, j-1), f02(i, j-2)
+};
+
+// f01 of the particle at row j, between its end a and the one below.
+vec3 f01_of(Column c, uint j, End a, End b) {
+  vec3 k = c.down_none;
+  if (bending) {
+    bool before = j >= 1u, after = j + 2u < c.ny;
+    k = before && after ? c.down_two : (before || after ? c.down_one : c.down_none);
+  }
+  return pair_force(j + 1u < c.ny ? k : vec3(0.0), a, b);
+}
+
+vec3 f02_of(Column c, uint j, End a, End b) {
+  return pair_force(j + 2u < c.ny ? c.down2 : vec3(0.0), a, b);
+}
+
+// Loads everything that row j needs and that the march does not load row by row.
+March march_from(Column c, uint j) {
   const bool far_pairs = flex || bending;  // (2,0)-type pairs carry flex springs and folded bending
-  uint nx = params.nx, ny = params.ny;
-  bool left = i >= 1u, right = i + 1u < nx, up = j >= 1u, down = j + 1u < ny;
-  bool row_edge = !up || !down, column_edge = !left || !right;
+  const End nothing = End(vec3(0.0), vec3(0.0));
+  March m;
+  m.j = j;
+  m.p = j * c.nx + c.i;
+  bool up = j >= 1u, up2 = j >= 2u;
+  m.own = end_at(m.p);
+  End up1 = end_at(up ? m.p - c.nx : m.p);
+  m.down1 = end_at(j + 1u < c.ny ? m.p + c.nx : m.p);
+  m.left = end_at(c.left ? m.p - 1u : m.p);
+  m.right = end_at(c.right ? m.p + 1u : m.p);
+  m.left_up = shear ? end_at(up && c.left ? m.p - c.nx - 1u : m.p) : nothing;
+  m.right_up = shear ? end_at(up && c.right ? m.p - c.nx + 1u : m.p) : nothing;
+  m.down2 = m.left_down = m.right_down = nothing;
+  m.f01_up = up ? f01_of(c, j - 1u, up1, m.own) : vec3(0.0);
+  m.f02_up1 = m.f02_up2 = vec3(0.0);
+  if (far_pairs) {
+    if (up2) m.f02_up2 = f02_of(c, j - 2u, end_at(m.p - 2u * c.nx), m.own);
+    if (up) m.f02_up1 = f02_of(c, j - 1u, up1, m.down1);
+  }
+  return m;
+}
+
+// The sum of all pairs' forces [N] at the march's particle.
+vec3 spring_force(Column c, inout March m) {
+  const bool far_pairs = flex || bending;
+  const vec3 absent = vec3(0.0);
+  uint p = m.p;
+  bool up = m.j >= 1u, down = m.j + 1u < c.ny, edge = !up || !down;
 
   precise vec3 P = vec3(0.0);
-  if (far_pairs) {
-    bool there = j >= 2u;
-    P = pair_force(there ? flex_row(1u, column_edge) : vec3(0.0), end_at(there ? p - 2u * nx : p), own);
-  }
-  P = P + pair_force(up ? structural_row(1u, column_edge, j - 1u, ny) : vec3(0.0),
-                     end_at(up ? p - nx : p), own);
+  if (far_pairs) P = m.f02_up2;
+  P = P + m.f01_up;
   if (shear) {
-    bool there = up && right;
-    P = P + pair_force(there ? params.shear.xyz : vec3(0.0), end_at(there ? p - nx + 1u : p), own);
-    there = up && left;
-    P = P + pair_force(there ? params.shear.xyz : vec3(0.0), end_at(there ? p - nx - 1u : p), own);
+    P = P + pair_force(up ? c.shear_right : absent, m.right_up, m.own);
+    P = P + pair_force(up ? c.shear_left : absent, m.left_up, m.own);
   }
 
-  precise vec3 F = pair_force(down ? structural_row(1u, column_edge, j, ny) : vec3(0.0), own,
-                              end_at(down ? p + nx : p)) - P;
-  F = F + pair_force(right ? structural_row(0u, row_edge, i, nx) : vec3(0.0), own, end_at(right ? p + 1u : p));
-  precise vec3 f10 = pair_force(left ? structural_row(0u, row_edge, i - 1u, nx) : vec3(0.0),
-                                end_at(left ? p - 1u : p), own);
+  m.f01_up = f01_of(c, m.j, m.own, m.down1);  // what the next row calls f01(i, j-1)
+  precise vec3 F = m.f01_up - P;
+  F = F + pair_force(edge ? c.right_edge : c.right_inner, m.own, m.right);
+  precise vec3 f10 = pair_force(edge ? c.left_edge : c.left_inner, m.left, m.own);
   if (shear) {
-    bool there = left && down;
-    precise vec3 difference =
-        pair_force(there ? params.shear.xyz : vec3(0.0), own, end_at(there ? p + nx - 1u : p)) - f10;
+    m.left_down = end_at(down && c.left ? p + c.nx - 1u : p);
+    precise vec3 difference = pair_force(down ? c.shear_left : absent, m.own, m.left_down) - f10;
     F = F + difference;
-    there = right && down;
-    F = F + pair_force(there ? params.shear.xyz : vec3(0.0), own, end_at(there ? p + nx + 1u : p));
+    m.right_down = end_at(down && c.right ? p + c.nx + 1u : p);
+    F = F + pair_force(down ? c.shear_right : absent, m.own, m.right_down);
   } else {
     F = F - f10;
   }
   if (far_pairs) {
-    bool there = i + 2u < nx;
-    F = F + pair_force(there ? flex_row(0u, row_edge) : vec3(0.0), own, end_at(there ? p + 2u : p));
-    there = i >= 2u;
-    F = F - pair_force(there ? flex_row(0u, row_edge) : vec3(0.0), end_at(there ? p - 2u : p), own);
-    there = j + 2u < ny;
-    F = F + pair_force(there ? flex_row(1u, column_edge) : vec3(0.0), own, end_at(there ? p + 2u * nx : p));
+    F = F + pair_force(edge ? c.right2_edge : c.right2_inner, m.own, end_at(c.right2 ? p + 2u : p));
+    F = F - pair_force(edge ? c.left2_edge : c.left2_inner, end_at(c.left2 ? p - 2u : p), m.own);
+    m.down2 = end_at(m.j + 2u < c.ny ? p + 2u * c.nx : p);
+    m.f02_up2 = m.f02_up1;
+    m.f02_up1 = f02_of(c, m.j, m.own, m.down2);
+    F = F + m.f02_up1;
   }
   return F;
+}
+
+// Moves the march to the next row.
+void step_down(Column c, inout March m) {
+  ++m.j;
+  m.p += c.nx;
+  m.own = m.down1;
+  if (flex || bending)
+    m.down1 = m.down2;
+  else
+    m.down1 = end_at(m.j + 1u < c.ny ? m.p + c.nx : m.p);
+  if (shear) {
+    m.left_up = m.left;
+    m.right_up = m.right;
+    m.left = m.left_down;
+    m.right = m.right_down;
+  } else {
+    m.left = end_at(c.left ? m.p - 1u : m.p);
+    m.right = end_at(c.right ? m.p + 1u : m.p);
+  }
 }

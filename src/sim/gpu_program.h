@@ -58,6 +58,7 @@ class GpuProgram {
     std::string module;
     std::vector<std::uint32_t> constants;
     std::shared_ptr<const gpu::ComputePipeline> pipeline;
+    std::uint32_t rows = 1;  ///< of particles, an invocation
     bool flips = false;
     std::vector<gpu::DescriptorSet> sets;  ///< [parity · kFrameSlots + slot]
   };
