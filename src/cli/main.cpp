@@ -1,6 +1,6 @@
 // The program `weft`: reads the command line, runs one command, and turns every failure into one message
 // on stderr and the documented exit code.
-#include <clocale>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 
@@ -43,11 +43,11 @@ void refuse_leftovers(const CLI::App& app, std::string_view command) {
   if (word.size() > 1 && word.front() == '-') {
     const std::vector<std::string> names = option_names(app);
     const std::vector<std::string_view> known(names.begin(), names.end());
-    throw error(Exit::usage, "{}: there is no option {}{} (see `weft {} --help`)", command,
-                weft::quoted(word), suggestion(word, known), command);
+    throw error(Exit::usage, "{}: there is no option {}{} (see `weft {} --help`)", command, in_quotes(word),
+                suggestion(word, known), command);
   }
-  throw error(Exit::usage, "{}: {} is one argument too many (see `weft {} --help`)", command,
-              weft::quoted(word), command);
+  throw error(Exit::usage, "{}: {} is one argument too many (see `weft {} --help`)", command, in_quotes(word),
+              command);
 }
 
 /// The command line with its command first: whatever does not begin with one is for `view`.

@@ -71,7 +71,7 @@ std::filesystem::path checked_folder(const std::string& text) {
   throw error(Exit::usage,
               "--shaders is {}; it must be a folder that holds passes/ and draw/ (this source's "
               "own is shaders/)",
-              weft::quoted(text));
+              in_quotes(text));
 }
 
 void parse_size(const std::string& text, PictureOptions& picture) {
@@ -79,7 +79,7 @@ void parse_size(const std::string& text, PictureOptions& picture) {
   const std::string cure = "--size 1280x720";
   if (cross == std::string::npos)
     throw error(Exit::usage, "--size is {}; it must be WIDTHxHEIGHT in pixels (for example {})",
-                weft::quoted(text), cure);
+                in_quotes(text), cure);
   picture.width = parse_count("--size's width", text.substr(0, cross), 16, 16384, cure);
   picture.height = parse_count("--size's height", text.substr(cross + 1), 16, 16384, cure);
 }
@@ -115,7 +115,7 @@ void add_scene(CLI::App& app, Options& o) {
 }
 
 void add_scenes(CLI::App& app, Options& o) {
-  app.add_option("SCENE", o.scenes, "1 to 6, names of `weft scenes`, or paths; default all six");
+  app.add_option("SCENE", o.scenes, "any number of: 1 to 6, names of `weft scenes`, or paths");
 }
 
 void add_out(CLI::App& app, Options& o, const std::string& about) {
@@ -135,7 +135,7 @@ void add_picture_options(CLI::App& app, Options& o) {
   add_text(app, "--shading", "smooth, or flat (draws half of the triangles)", "NAME",
            [&o](const std::string& text) { o.picture.flat = parse_word("--shading", text, kShadings) == 1; });
   app.add_flag("--wireframe", o.picture.wireframe, "draw the triangles' edges");
-  add_text(app, "--fps", "pictures a simulated second in a video or sequence; default 60", "N",
+  add_text(app, "--fps", "pictures a simulated second; default one a frame, at most 60", "N",
            [&o](const std::string& text) { o.picture.fps = parse_count("--fps", text, 1, 240, "--fps 30"); });
 }
 

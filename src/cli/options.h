@@ -17,7 +17,7 @@ struct PictureOptions {
   std::optional<std::uint32_t> samples;  ///< 1 or 4 a pixel; absent: the device decides
   bool flat = false;
   bool wireframe = false;
-  std::uint32_t fps = 60;
+  std::optional<std::uint32_t> fps;  ///< absent: one picture a frame, 60 at most
 };
 
 /// One command line. Scene keys (`--set`, `--resolution`, …) stay TOML assignments for the scene reader.

@@ -8,21 +8,12 @@
 #include "cli/progress.h"
 #include "cli/setup.h"
 #include "cli/state_output.h"
+#include "cli/summary.h"
 #include "cli/table.h"
-#include "model/measures.h"
 #include "sim/expect.h"
 
 namespace weft::cli {
 namespace {
-
-/// What a run leaves behind.
-struct Outcome {
-  State state;
-  double wall_s = 0.0;
-  std::uint64_t spring_evaluations = 0;
-  FrameStats frame;  ///< of the first frame
-  std::vector<Verdict> verdicts;
-};
 
 /// --time, else with --check the time at which the scene's checks are made, else 5 s.
 double run_time_s(const Options& o, const Scene& scene) {
@@ -87,45 +78,6 @@ Outcome simulate_scene(const Options& o, Simulation& simulation, double run_s, F
   return outcome;
 }
 
-nlohmann::ordered_json summary(const Setup& setup, const Machine& machine, const Outcome& outcome) {
-  const Stretch stretched = stretch(setup.model, outcome.state);
-  const double time_s = outcome.state.time_s;
-  return {{"device", machine.device_label},
-          {"solver", std::string(setup.solver->name)},
-          {"precision", setup.scene().solver.precision},
-          {"substeps", machine.simulation->plan().substeps},
-          {"time_s", time_s},
-          {"wall_s", outcome.wall_s},
-          {"spring_evaluations", outcome.spring_evaluations},
-          {"real_time_factor", outcome.wall_s > 0.0 ? time_s / outcome.wall_s : 0.0},
-          {"max_stretch", stretched.maximum},
-          {"p99_stretch", stretched.p99},
-          {"energy_j", energy(setup.model, outcome.state).total()},
-          {"hash", fmt::format("{:016x}", state_hash(outcome.state))}};
-}
-
-std::string human_line(const Scene& scene, const nlohmann::ordered_json& s) {
-  const std::string name = scene.title.empty() ? scene.source : scene.title;
-  return fmt::format(
-      "{} · {} · {} · {} · {} substeps · simulated {:.6g} s · wall {:.3g} s · real-time factor "
-      "{:.3g} · max stretch {:.3g} %\n",
-      name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
-      s["substeps"].get<std::uint32_t>(), s["time_s"].get<double>(), s["wall_s"].get<double>(),
-      s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>());
-}
-
-void print_summary(const Options& o, const Setup& setup, const nlohmann::ordered_json& fields) {
-  if (o.format == Format::human) return print_result(human_line(setup.scene(), fields));
-  if (o.format == Format::json) return print_result(fields.dump(2) + '\n');
-  Table table;
-  table.rows.emplace_back();
-  for (const auto& [key, value] : fields.items()) {
-    table.columns.push_back(key);
-    table.rows[0].push_back(value);
-  }
-  print_result(to_text(table, Format::csv));
-}
-
 /// What was recorded and allocated, beside what the plan says of a full frame.
 void print_details(const Machine& machine, const Outcome& outcome) {
   const Plan& plan = machine.simulation->plan();
@@ -141,13 +93,13 @@ Exit run(const Options& o) {
   const double run_s = run_time_s(o, setup.scene());
   std::unique_ptr<StateOutput> output;
   stop_between_frames();
-  if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model, run_s);
+  if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model);
   Machine machine = start(o, setup);
   FrameWatch watch(o, setup, run_s, output.get());
   const Outcome outcome = simulate_scene(o, *machine.simulation, run_s, watch);
   report_validation(machine.device.get());
   if (output) output->finish(outcome.state);
-  print_summary(o, setup, summary(setup, machine, outcome));
+  print_summary(o, setup.scene(), summarize(setup, machine, outcome));
   if (o.verbose) print_details(machine, outcome);
   if (!o.check) return Exit::ok;
   const std::string verdicts = describe(outcome.verdicts);

@@ -26,7 +26,7 @@ double parse_number(std::string_view option, std::string_view text, double minim
   const auto [stopped, failure] = std::from_chars(text.data(), end, value);
   const bool number = failure == std::errc() && stopped == end && std::isfinite(value);
   if (number && value >= minimum && value <= maximum) return value;
-  throw error(Exit::usage, "{} is {}; it must be a number, {} (for example {})", option, weft::quoted(text),
+  throw error(Exit::usage, "{} is {}; it must be a number, {} (for example {})", option, in_quotes(text),
               number_rule(minimum, maximum, unit), cure);
 }
 
@@ -37,14 +37,14 @@ std::uint32_t parse_count(std::string_view option, std::string_view text, std::u
   const auto [stopped, failure] = std::from_chars(text.data(), end, value);
   if (failure == std::errc() && stopped == end && value >= minimum && value <= maximum) return value;
   throw error(Exit::usage, "{} is {}; it must be a whole number, {} to {} (for example {})", option,
-              weft::quoted(text), minimum, maximum, cure);
+              in_quotes(text), minimum, maximum, cure);
 }
 
 std::size_t parse_word(std::string_view option, std::string_view text,
                        std::span<const std::string_view> words) {
   const auto found = std::find(words.begin(), words.end(), text);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw error(Exit::usage, "{} is {}; it must be one of {}{}", option, weft::quoted(text),
+  throw error(Exit::usage, "{} is {}; it must be one of {}{}", option, in_quotes(text),
               fmt::join(words, ", "), suggestion(text, words));
 }
 

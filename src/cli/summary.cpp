@@ -1,0 +1,54 @@
+// Measures the final state and prints it in the format asked for.
+#include "cli/summary.h"
+
+#include <fmt/format.h>
+
+#include "cli/table.h"
+#include "model/measures.h"
+
+namespace weft::cli {
+namespace {
+
+std::string human_line(const Scene& scene, const nlohmann::ordered_json& s, const std::string& tail) {
+  const std::string name = scene.title.empty() ? scene.source : scene.title;
+  return fmt::format(
+      "{} · {} · {} · {} · {} substeps · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
+      "max stretch {:.3g} %{}\n",
+      name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
+      s["substeps"].get<std::uint32_t>(), s["time_s"].get<double>(), s["wall_s"].get<double>(),
+      s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>(), tail);
+}
+
+}  // namespace
+
+nlohmann::ordered_json summarize(const Setup& setup, const Machine& machine, const Outcome& outcome) {
+  const Stretch stretched = stretch(setup.model, outcome.state);
+  const double time_s = outcome.state.time_s;
+  return {{"device", machine.device_label},
+          {"solver", std::string(setup.solver->name)},
+          {"precision", setup.scene().solver.precision},
+          {"substeps", machine.simulation->plan().substeps},
+          {"time_s", time_s},
+          {"wall_s", outcome.wall_s},
+          {"spring_evaluations", outcome.spring_evaluations},
+          {"real_time_factor", outcome.wall_s > 0.0 ? time_s / outcome.wall_s : 0.0},
+          {"max_stretch", stretched.maximum},
+          {"p99_stretch", stretched.p99},
+          {"energy_j", energy(setup.model, outcome.state).total()},
+          {"hash", fmt::format("{:016x}", state_hash(outcome.state))}};
+}
+
+void print_summary(const Options& o, const Scene& scene, const nlohmann::ordered_json& fields,
+                   const std::string& tail) {
+  if (o.format == Format::human) return print_result(human_line(scene, fields, tail));
+  if (o.format == Format::json) return print_result(fields.dump(2) + '\n');
+  Table table;
+  table.rows.emplace_back();
+  for (const auto& [key, value] : fields.items()) {
+    table.columns.push_back(key);
+    table.rows[0].push_back(value);
+  }
+  print_result(to_text(table, Format::csv));
+}
+
+}  // namespace weft::cli
