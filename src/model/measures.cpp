@@ -107,13 +107,14 @@ double max_distance(const State& a, const State& b) {
 
 double deepest_penetration(const Model& model, const State& state) {
   double deepest_m = 0.0;
-  for (std::size_t p = 0; p < state.position.size(); ++p) {
-    const glm::dvec3& x = state.position[p];
-    if (model.scene.floor)
-      deepest_m = std::max(deepest_m, model.scene.floor->height_m + model.half_thickness_m - x.y);
+  const auto count = [&](double depth_m) {
+    if (!(depth_m <= deepest_m)) deepest_m = depth_m;  // so that a NaN shows
+  };
+  for (const glm::dvec3& x : state.position) {
+    if (model.scene.floor) count(model.scene.floor->height_m + model.half_thickness_m - x.y);
     for (const SphereSection& sphere : model.scene.spheres) {
       const double reach_m = sphere.radius_m + model.half_thickness_m;
-      deepest_m = std::max(deepest_m, reach_m - glm::distance(x, sphere_center_at(sphere, state.time_s)));
+      count(reach_m - glm::distance(x, sphere_center_at(sphere, state.time_s)));
     }
   }
   return deepest_m;
