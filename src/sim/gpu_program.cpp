@@ -113,7 +113,7 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
     const std::size_t kernel = kernel_for(device, step, buffers, *pipelines);
-    const std::uint32_t* local = kernels_[kernel].pipeline->reflection().local_size;
+    const auto& local = kernels_[kernel].pipeline->reflection().local_size;
     const std::uint32_t rows = local[1] * kernels_[kernel].rows;
     steps_.push_back({kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + rows - 1) / rows});
   }
