@@ -1,0 +1,178 @@
+// The plan: goldens of the six scenes, and the law that what a scene does not call for is not in it.
+#include "plan/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.h"
+#include "passes/passes.h"
+#include "plan/buffers.h"
+#include "scene/reader.h"
+
+namespace weft {
+namespace {
+
+Model model_of(const std::string& text) { return build_model(parse_scene(text, "test.toml").scene); }
+
+Plan plan_of(const std::string& text) { return compile_plan(model_of(text), find_solver("leapfrog")); }
+
+bool constant_on(const Plan& plan, std::string_view name) {
+  for (const PlanStep& step : plan.steps)
+    for (const Constant& constant : step.constants)
+      if (constant.name == name) return constant.value != 0;
+  ADD_FAILURE() << "no constant " << name;
+  return false;
+}
+
+std::string reason_for(const Plan& plan, std::string_view effect) {
+  for (const LeftOut& left_out : plan.left_out)
+    if (left_out.effect == effect) return left_out.reason;
+  return "";
+}
+
+std::uint64_t bytes_of(const Plan& plan, BufferId id) {
+  for (const PlanBuffer& buffer : plan.buffers)
+    if (buffer.id == id) return buffer.bytes;
+  return 0;
+}
+
+/// Run with WEFT_UPDATE_GOLDENS=1 to write them anew.
+TEST(Plan, equals_its_golden_copy_for_each_scene) {
+  for (const AssetInfo& asset : list_scenes()) {
+    const Model model = build_model(load_scene(asset.file).scene);
+    const std::string json = to_json(compile_plan(model, find_solver(model.scene.solver.name)), model) + "\n";
+    const std::string file = std::string(WEFT_SOURCE_DIR "/tests/golden/plans/") + asset.name + ".json";
+    if (std::getenv("WEFT_UPDATE_GOLDENS") != nullptr) std::ofstream(file) << json;
+    std::stringstream golden;
+    golden << std::ifstream(file).rdbuf();
+    EXPECT_EQ(json, golden.str()) << file << " differs; WEFT_UPDATE_GOLDENS=1 writes it anew";
+  }
+}
+
+TEST(Plan, is_substeps_then_the_closing_kick_then_normals) {
+  const Plan plan = plan_of("[cloth]\nresolution = 16\n[gravity]\n[solver]\nsubsteps = 50");
+  ASSERT_EQ(plan.steps.size(), 3u);
+  EXPECT_EQ(plan.steps[0].pass, &integrate);
+  EXPECT_EQ(plan.steps[0].repeat, 50u);
+  EXPECT_EQ(plan.steps[1].pass, &integrate);
+  EXPECT_EQ(plan.steps[1].block, Block::frame_end);
+  EXPECT_EQ(plan.steps[2].pass, &normals);
+  EXPECT_EQ(plan.dispatches(), 52u);
+}
+
+/// Each row: what to add to a bare scene, and which constant and effect that is.
+struct EffectCase {
+  std::string_view constant, effect;
+  std::string section;
+};
+const EffectCase kCases[] = {
+    {"air", "air drag", "[air]\ndrag = 0.1\n"},
+    {"wind", "wind", "[air]\ndrag = 0.1\n[wind]\nvelocity = [0.0, 0.0, 3.0]\n"},
+    {"gravity", "gravity", "[gravity]\n"},
+    {"floor", "floor contact", "[floor]\nheight = -3.0\n"},
+    {"spheres", "sphere contact", "[[spheres]]\ncenter = [0.0, -3.0, 0.0]\nradius = 0.2\n"},
+    {"pins", "pins", "[[pins]]\nat = [0.0, 0.0]\n"},
+    {"bending", "bending", "[material]\nbend = 1e-5\n"},
+};
+
+TEST(Plan, leaves_out_what_the_scene_does_not_have_and_says_why) {
+  const std::string bare = "[cloth]\nresolution = 8\n";
+  const Plan without = plan_of(bare);
+  for (const EffectCase& c : kCases) {
+    const Plan with = plan_of(bare + c.section);
+    EXPECT_FALSE(constant_on(without, c.constant)) << c.effect;
+    EXPECT_NE(reason_for(without, c.effect), "") << c.effect;
+    EXPECT_TRUE(constant_on(with, c.constant)) << c.effect;
+    EXPECT_EQ(reason_for(with, c.effect), "") << c.effect;
+  }
+  EXPECT_EQ(reason_for(without, "wind"), "the scene has no [wind]");
+}
+
+TEST(Plan, says_which_material_key_turned_an_effect_off) {
+  const Plan plan = plan_of("[cloth]\nresolution = 8\n[material]\nshear = 0.0\nflex = 0.0\ndamping = 0.0\n");
+  EXPECT_EQ(reason_for(plan, "shear springs"), "material.shear is 0");
+  EXPECT_EQ(reason_for(plan, "flex springs"), "material.flex is 0");
+  EXPECT_EQ(reason_for(plan, "bending"), "material.bend is 0");
+  EXPECT_EQ(reason_for(plan, "spring damping"), "material.damping is 0");
+}
+
+// A sphere is three vec4s a row (shared/params.h) in each of the two slots' tables: 50 substeps and a closing
+// kick need 51 rows, rounded up to 64. An arithmetic effect takes nothing.
+TEST(Plan, counts_no_byte_for_an_absent_effect) {
+  const std::string bare = "[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n";
+  const std::string sphere = "[[spheres]]\ncenter = [0.0, -3.0, 0.0]\nradius = 0.2\n";
+  const std::uint64_t without = plan_of(bare).bytes();
+  EXPECT_EQ(plan_of(bare + "[gravity]\n[air]\ndrag = 1.0\n[floor]\nheight = -3.0\n").bytes(), without);
+  EXPECT_EQ(plan_of(bare + sphere).bytes(), without + 2 * 64 * 3 * 16);
+  EXPECT_EQ(plan_of(bare + sphere + sphere).bytes(), without + 2 * 64 * 6 * 16);
+}
+
+TEST(Plan, sums_its_buffers) {
+  const Plan plan = plan_of("[cloth]\nresolution = 10\nheight = 2.0\n[solver]\nsubsteps = 63\n");
+  const std::uint64_t particles = 10 * 19;  // height 2 of width 1: 2·9 cells
+  for (const BufferId id : {BufferId::position, BufferId::position_next, BufferId::velocity,
+                            BufferId::velocity_next, BufferId::normal})
+    EXPECT_EQ(bytes_of(plan, id), 16 * particles);
+  EXPECT_EQ(bytes_of(plan, BufferId::substeps), 2u * 64 * 2 * 16);
+  EXPECT_EQ(bytes_of(plan, BufferId::params), 2 * sizeof(shared::Params));
+  EXPECT_EQ(plan.bytes(), 5 * 16 * particles + 2 * 64 * 2 * 16 + 2 * sizeof(shared::Params));
+}
+
+TEST(Plan, has_room_for_the_closing_kick_at_powers_of_two) {
+  EXPECT_EQ(substep_row_capacity(1), 2u);
+  EXPECT_EQ(substep_row_capacity(63), 64u);
+  EXPECT_EQ(substep_row_capacity(64), 128u);
+}
+
+TEST(Plan, of_a_solver_without_gpu_passes_says_so) {
+  for (const Solver* solver : solvers()) {
+    if (solver->on_gpu) continue;
+    const Model model = model_of("[cloth]\nresolution = 8\n");
+    const Plan plan = compile_plan(model, *solver);
+    ASSERT_EQ(plan.steps.size(), 1u) << solver->name;
+    EXPECT_EQ(plan.steps[0].pass->name, "cpu_reference");
+    EXPECT_EQ(plan.bytes(), 0u);
+    EXPECT_NE(describe(plan, model).find("CPU reference only"), std::string::npos);
+  }
+}
+
+TEST(Plan, refuses_self_collision_until_there_are_passes_for_it) {
+  try {
+    plan_of("[cloth]\nresolution = 8\n[self_collision]\nthickness = 0.004\n");
+    FAIL() << "accepted";
+  } catch (const Error& refusal) {
+    EXPECT_EQ(refusal.code(), Exit::usage);
+    EXPECT_NE(std::string(refusal.what()).find("0.004"), std::string::npos);
+  }
+}
+
+TEST(Plan, as_json_carries_the_documented_keys_and_the_same_numbers) {
+  const Model model = model_of("[cloth]\nresolution = 12\n[gravity]\n");
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  const auto json = nlohmann::json::parse(to_json(plan, model));
+  for (const char* key : {"steps", "buffers", "left_out", "bytes"}) EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_EQ(json["bytes"], plan.bytes());
+  EXPECT_EQ(json["steps"][0]["pass"], "integrate");
+  EXPECT_EQ(json["steps"][0]["repeat"], plan.substeps);
+  EXPECT_EQ(json["steps"][0]["range"], nlohmann::json({12, 12}));
+  EXPECT_EQ(json["steps"][0]["constants"]["gravity"], true);
+  EXPECT_EQ(json["steps"][0]["constants"]["wind"], false);
+}
+
+TEST(Plan, for_people_names_every_buffer_and_every_omission) {
+  const Model model = model_of("[cloth]\nresolution = 12\n[gravity]\n");
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  const std::string text = describe(plan, model);
+  for (const PlanBuffer& buffer : plan.buffers)
+    EXPECT_NE(text.find(row_of(buffer.id).name), std::string::npos) << row_of(buffer.id).name;
+  for (const LeftOut& left_out : plan.left_out)
+    EXPECT_NE(text.find(left_out.reason), std::string::npos) << left_out.effect;
+}
+
+}  // namespace
+}  // namespace weft
