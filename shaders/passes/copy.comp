@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/pass.glsl"
 
-// Copies a buffer, one vec4 an invocation: the memory bandwidth that `bench` holds every pass against. Not part
-// of any plan.
+// Copies a buffer, one vec4 an invocation: the memory bandwidth that `bench` holds every pass against.
+// Not part of any plan.
 
 READS (vec4, position)
 WRITES(vec4, position_next)

@@ -1,5 +1,5 @@
-// The springs' force on a particle, gathered over its 12 neighbours in the order of docs/float-form.md, marching
-// down a column of particles so that what one row loaded and computed serves the rows below.
+// The springs' force on a particle, gathered over its 12 neighbours in the order of docs/float-form.md,
+// marching down a column of particles so that what one row loaded and computed serves the rows below.
 // The including pass declares READS(vec4, position) and READS(vec4, velocity) first.
 
 float dot3(vec3 a, vec3 b) {

@@ -1,5 +1,5 @@
-// Model × Solver → Plan: which steps, over what, with which constants; the buffers they need; what was left
-// out and why.
+// Model × Solver → Plan: which steps, over what, with which constants; the buffers they need; what was
+// left out and why.
 #include <set>
 
 #include "core/error.h"

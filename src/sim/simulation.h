@@ -22,7 +22,8 @@ class Simulation {
   virtual const Plan& plan() const = 0;
   virtual std::string device_name() const = 0;
   virtual double time_s() const = 0;
-  /// Advances by one frame of `frame_s` in `substeps` substeps (kick, drift and closing kick as the solver says).
+  /// Advances by one frame of `frame_s` in `substeps` substeps (kick, drift and closing kick as the solver
+  /// says).
   virtual FrameStats advance(double frame_s, std::uint32_t substeps) = 0;
   virtual State read() = 0;              ///< waits for the device
   virtual void write(const State&) = 0;  ///< positions, velocities, time
@@ -53,7 +54,8 @@ void run_for(Simulation& simulation, double time_s, AfterFrame&& after_frame) {
   const std::uint64_t total = frames.whole + (frames.rest_substeps > 0 ? 1 : 0);
   for (std::uint64_t f = 0; f < total; ++f) {
     const bool whole = f < frames.whole;
-    const FrameStats stats = simulation.advance(whole ? frame_s : frames.rest_s, whole ? n : frames.rest_substeps);
+    const FrameStats stats =
+        simulation.advance(whole ? frame_s : frames.rest_s, whole ? n : frames.rest_substeps);
     if (!after_frame(f + 1, total, stats)) return;
   }
 }
