@@ -61,7 +61,7 @@ std::string to_benchmark_json(const BenchReport& report) {
         counters["substeps"] = row.substeps;
       }
       add(json["benchmarks"], name, "median", report.repetitions, pass.ms.median * 1e6, counters);
-      add(json["benchmarks"], name, "stddev", report.repetitions, pass.ms.spread * 1e6, Json::object());
+      add(json["benchmarks"], name, "half_iqr", report.repetitions, pass.ms.spread * 1e6, Json::object());
     }
   return json.dump(2);
 }
