@@ -61,13 +61,15 @@ void main() {
   float towards = dot(n, view.to_light);
   float lit = shadow(world_m, towards < 0.0 ? -n : n, kFlat ? 0.0 : 0.3 * view.spacing_m);
   vec3 h = normalize(view.to_light + to_eye);
-  float grazing = pow(clamp(1.0 - dot(n, to_eye), 0.0, 1.0), 3.0);
+  float away = clamp(1.0 - dot(n, to_eye), 0.0, 1.0), grazing = away * away * away;
+  float shine = max(dot(n, h), 0.0);
+  shine *= shine, shine *= shine, shine *= shine, shine *= shine;  // to the 16th
   float open = ball_occlusion(world_m, n);
 
   vec3 through = base * base * (0.42 * max(-towards, 0.0));
   vec3 light = kKey * lit * (base * max(towards, 0.0) * 0.56 + through);
   light += base * mix(kFloorFill, kSkyFill, 0.5 + 0.5 * n.y) * (0.35 + 0.65 * open);
-  light += kKey * lit * (0.008 + 0.04 * base) * pow(max(dot(n, h), 0.0), 18.0) * step(0.0, towards);
+  light += kKey * lit * (0.008 + 0.04 * base) * shine * step(0.0, towards);
   light += kRim * grazing * (0.10 + 0.35 * base) * (0.6 + 0.4 * n.y);
   color = to_screen(light);
 }

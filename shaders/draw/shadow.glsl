@@ -8,11 +8,10 @@ const int kBlockerTaps = 10;
 const float kLightSize = 0.07;        // tangent of the light's angular diameter
 const float kWidestTexels = 14.0;
 
-// Point k of n on a disc of radius 1, evenly spread (Vogel's spiral), turned by `turn` radians.
-vec2 disc(int k, int n, float turn) {
-  float r = sqrt((float(k) + 0.5) / float(n)), a = 2.39996323 * float(k) + turn;
-  return r * vec2(cos(a), sin(a));
-}
+// Taps lie on Vogel's spiral: each direction is the one before turned by the golden angle, and point k of n
+// has the radius sqrt((k + ½)/n).
+const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+float spiral_radius(int k, int n) { return sqrt((float(k) + 0.5) / float(n)); }
 
 // 1 = lit, 0 = in shadow. `n` faces the light; the lookup starts `lift_m` above the surface, so that a coarse
 // mesh does not shade its own smooth curve.
@@ -24,11 +23,14 @@ float shadow(vec3 p, vec3 n, float lift_m) {
   float texel = 1.0 / float(textureSize(shadow_depth, 0).x);
   bool inside = all(lessThan(abs(s.xyz - vec3(0, 0, 0.5)), vec3(1.0, 1.0, 0.5)));
   float turn = 6.2831853 * pixel_noise(gl_FragCoord.xy);
+  vec2 direction = vec2(cos(turn), sin(turn));
 
   float depth_sum = 0.0, blockers = 0.0;
   int search = inside ? kBlockerTaps : 0;
   for (int k = 0; k < search; ++k) {
-    float d = textureLod(shadow_depth, at + disc(k, kBlockerTaps, turn) * kWidestTexels * texel, 0.0).r;
+    vec2 place = at + direction * (spiral_radius(k, kBlockerTaps) * kWidestTexels * texel);
+    float d = textureLod(shadow_depth, place, 0.0).r;
+    direction = kGoldenTurn * direction;
     float blocks = d < s.z ? 1.0 : 0.0;
     depth_sum += blocks * d;
     blockers += blocks;
@@ -37,7 +39,10 @@ float shadow(vec3 p, vec3 n, float lift_m) {
   float radius = clamp(0.5 * kLightSize * gap_m / view.shadow_texel_m, 1.2, kWidestTexels) * texel;
   int taps = blockers > 0.0 ? kShadowTaps : 0;
   float lit = 0.0;
-  for (int k = 0; k < taps; ++k)
-    lit += textureLod(shadow_compare, vec3(at + disc(k, kShadowTaps, turn) * radius, s.z), 0.0);
+  for (int k = 0; k < taps; ++k) {
+    vec2 place = at + direction * (spiral_radius(k, kShadowTaps) * radius);
+    lit += textureLod(shadow_compare, vec3(place, s.z), 0.0);
+    direction = kGoldenTurn * direction;
+  }
   return taps > 0 ? lit / float(kShadowTaps) : 1.0;
 }
