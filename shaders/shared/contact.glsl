@@ -20,8 +20,8 @@ vec3 respond(vec3 v, vec3 collider_velocity, vec3 n, float friction) {
   return answer;
 }
 
-// Where the path p0 → p1 through a sphere's frame first meets its surface, if it went in and past the
-// nearest point; else p1. Deeper than 1 % only: shallower chords are particles sliding round the sphere.
+// Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of the
+// reach; else p1. Shallower chords are particles sliding round the sphere.
 vec3 sphere_stop(vec3 p0, vec3 p1, float reach, out bool hit) {
   precise vec3 D = p1 - p0;
   precise float m = 0.99 * reach;
@@ -32,11 +32,14 @@ vec3 sphere_stop(vec3 p0, vec3 p1, float reach, out bool hit) {
   precise float c1 = dot3(p1, p1);
   precise float r2 = reach * reach;
   hit = c1 < r2;
-  if (b < 0.0 && dot3(p1, D) > 0.0 && c0 >= m2) {
+  if (b < 0.0 && c0 >= m2) {
     precise float b2 = b * b;
-    precise float closest = b2 / a;
-    closest = c0 - closest;
-    if (closest < m2) {
+    precise float nearest = c1;  // squared distance of the path's nearest point: its end, or where it passed
+    if (dot3(p1, D) > 0.0) {
+      precise float advance = b2 / a;
+      nearest = c0 - advance;
+    }
+    if (nearest < m2) {
       precise float beyond = c0 - r2;
       beyond = a * beyond;
       precise float k = b2 - beyond;

@@ -27,15 +27,15 @@ glm::vec<3, T> respond(const glm::vec<3, T>& v, const glm::vec<3, T>& surface, c
 }
 
 /// The place from which the contact normal points, relative to the sphere's centre at the drift's end:
-/// where the path entered, when it went in and past the nearest point; else its end. False: no contact.
+/// where the path entered, when it went deep; else its end. False: no contact.
 template <class T>
 bool sphere_contact_point(const SphereRow<T>& sphere, const glm::vec<3, T>& p0, const glm::vec<3, T>& p1,
                           glm::vec<3, T>& point) {
   const glm::vec<3, T> path = p1 - p0;
   const T depth = static_cast<T>(0.99) * sphere.reach, depth2 = depth * depth;
   const T a = dot3(path, path), b = dot3(p0, path), c0 = dot3(p0, p0), c1 = dot3(p1, p1);
-  const bool passed = b < T(0) && dot3(p1, path) > T(0) && c0 >= depth2 && c0 - (b * b) / a < depth2;
-  if (!passed) {
+  const bool deep = dot3(p1, path) > T(0) ? c0 - (b * b) / a < depth2 : c1 < depth2;
+  if (!(b < T(0) && c0 >= depth2 && deep)) {
     point = p1;
     return c1 < sphere.reach * sphere.reach;
   }

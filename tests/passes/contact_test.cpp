@@ -71,6 +71,25 @@ TEST(Sphere, IsNeverEnteredNorCrossed) {
   EXPECT_GT(hits, 10000);
 }
 
+// A particle aimed within a fifth of the radius loses what it flies inwards with, wherever its steps happen to
+// end: at the entry the normal lies within asin(0.2) of the flight, so at most sin of that angle is left. Pushing
+// out radially from a deep end near the equator would let it fly on.
+TEST(Sphere, TurnsAsideWhatEndsDeepInside) {
+  for (const double step_m : {0.35, 0.5, 1.0, 1.5, 3.0, 7.0}) {
+    for (int place = 0; place < 200; ++place) {
+      for (const double offset : {0.0, 0.1, 0.2}) {
+        dvec3 x(-1.2 - step_m * place / 200.0, offset, 0.0), v(step_m, 0, 0);
+        for (int step = 0; step < 12; ++step) {
+          dvec3 x1 = x + v;
+          sphere_contact(sphere(0.0), x, x1, v);
+          x = x1;
+        }
+        EXPECT_LE(glm::length(v), 0.35 * step_m) << step_m << " " << place << " " << offset;
+      }
+    }
+  }
+}
+
 // The sphere moves, the particle rests: the same in the sphere's frame.
 TEST(Sphere, ThatMovesFastTakesAParticleAlong) {
   for (const double speed_m_s : {10.0, 100.0, 1000.0}) {
