@@ -8,6 +8,7 @@
 #include "cli/interrupt.h"
 #include "cli/text.h"
 #include "core/text.h"
+#include "scene/reader.h"
 
 namespace weft::cli {
 namespace {
@@ -50,18 +51,33 @@ void refuse_leftovers(const CLI::App& app, std::string_view command) {
               command);
 }
 
+/// A first word that is no scene but nearly a command is a mistyped command.
+void refuse_mistyped_command(const std::string& word, std::span<const std::string_view> names) {
+  const std::string_view meant = nearest_name(word, names);
+  if (meant.empty()) return;
+  try {
+    find_scene(word);
+  } catch (const Error&) {
+    throw error(Exit::usage, "there is no command {}; did you mean {}? (see `weft --help`)", in_quotes(word),
+                meant);
+  }
+}
+
 /// The command line with its command first: whatever does not begin with one is for `view`.
 std::vector<std::string> with_command(int count, char** words) {
   std::vector<std::string> arguments(words + std::min(count, 1), words + count);
   const std::vector<std::string_view> names = command_names();
+  const auto is_command = [&](const std::string& word) {
+    return std::find(names.begin(), names.end(), word) != names.end();
+  };
   if (!arguments.empty()) {
     const std::string& first = arguments.front();
-    if (std::find(names.begin(), names.end(), first) != names.end()) return arguments;
-    if (first == "--help" || first == "-h" || first == "--version") return arguments;
+    if (is_command(first) || first == "--help" || first == "-h" || first == "--version") return arguments;
+    refuse_mistyped_command(first, names);
   }
-  for (const std::string& word : arguments)
-    if (std::find(names.begin(), names.end(), word) != names.end())
-      throw error(Exit::usage, "the command comes first: weft {} [SCENE] [OPTIONS]", word);
+  const auto command = std::find_if(arguments.begin(), arguments.end(), is_command);
+  if (command != arguments.end())
+    throw error(Exit::usage, "the command comes first: weft {} [SCENE] [OPTIONS]", *command);
   arguments.insert(arguments.begin(), "view");
   return arguments;
 }

@@ -111,11 +111,11 @@ void add_shared_options(CLI::App& app, Options& o) {
 }
 
 void add_scene(CLI::App& app, Options& o) {
-  app.add_option("SCENE", o.scenes, "1 to 6, a name of `weft scenes`, or a path")->expected(0, 1);
+  app.add_option("SCENE", o.scenes, "1 to 6, a name of `weft scenes`, or a path")->type_name("");
 }
 
 void add_scenes(CLI::App& app, Options& o) {
-  app.add_option("SCENE", o.scenes, "any number of: 1 to 6, names of `weft scenes`, or paths");
+  app.add_option("SCENE", o.scenes, "any number of: 1 to 6, names of `weft scenes`, or paths")->type_name("");
 }
 
 void add_out(CLI::App& app, Options& o, const std::string& about) {
@@ -144,7 +144,14 @@ const std::string& only_scene(const Options& o) {
     throw Error(Exit::usage,
                 "no scene is given; it must be 1 to 6, a name of `weft scenes`, or a path "
                 "(for example `weft simulate 1 --time 2`)");
+  refuse_second_scene(o);
   return o.scenes.front();
+}
+
+void refuse_second_scene(const Options& o) {
+  if (o.scenes.size() > 1)
+    throw error(Exit::usage, "{} is one argument too many; this command takes one scene",
+                in_quotes(o.scenes[1]));
 }
 
 }  // namespace weft::cli

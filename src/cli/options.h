@@ -49,7 +49,7 @@ inline constexpr double kTimeMax_s = 1e6;  ///< longest `--time`: 11 days of clo
 /// Adds the options every command takes. Values are checked as they are read.
 void add_shared_options(CLI::App&, Options&);
 
-/// Adds one optional SCENE, or any number of them.
+/// Adds SCENE: one (only_scene or refuse_second_scene sees to that), or any number of them.
 void add_scene(CLI::App&, Options&);
 void add_scenes(CLI::App&, Options&);
 
@@ -60,7 +60,10 @@ void add_out(CLI::App&, Options&, const std::string& about);
 void add_picture_options(CLI::App&, Options&);
 
 /// The one scene a command needs.
-/// @throws Error(Exit::usage) when none was given
+/// @throws Error(Exit::usage) when none was given, or a second one
 const std::string& only_scene(const Options&);
+
+/// @throws Error(Exit::usage) when more than one scene was given
+void refuse_second_scene(const Options&);
 
 }  // namespace weft::cli

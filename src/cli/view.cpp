@@ -11,6 +11,7 @@ namespace {
 
 #ifdef WEFT_HAS_VIEWER
 Exit run(const Options& o) {
+  refuse_second_scene(o);
   ViewerOptions window;
   if (!o.scenes.empty()) window.scene = o.scenes.front();
   window.overrides = overrides_of(o);
@@ -23,6 +24,7 @@ Exit run(const Options& o) {
 #else
 /// @throws Error(Exit::usage), after checking that the word is a scene: a mistyped command is said to be one
 Exit run(const Options& o) {
+  refuse_second_scene(o);
   if (!o.scenes.empty()) find_scene(o.scenes.front());
   const std::string scene = o.scenes.empty() ? "1" : o.scenes.front();
   throw error(Exit::usage,

@@ -1,0 +1,167 @@
+// What the program says of itself and of mistakes: help, version, unknown words, bad values. A mistake of
+// the user's is exit 2 with nothing on stdout and one message on stderr.
+#include <gtest/gtest.h>
+
+#include "cli/process.h"
+
+namespace weft::test {
+namespace {
+
+const Arguments kCommands = {"view",  "render",  "simulate", "plan",      "validate",
+                             "bench", "devices", "scenes",   "materials", "solvers"};
+
+/// A refused command line says every part, on stderr alone.
+void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts, int code = 2) {
+  const Result result = weft(arguments);
+  EXPECT_CODE(result, code);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err.rfind("weft: ", 0), 0u) << result.err;
+  for (const std::string& part : parts) EXPECT_SAYS(result.err, part);
+}
+
+TEST(Usage, HelpListsEveryCommandAndTheExitCodes) {
+  const Result result = weft({"--help"});
+  EXPECT_CODE(result, 0);
+  EXPECT_EQ(result.err, "");
+  for (const std::string& command : kCommands) EXPECT_SAYS(result.out, command);
+  EXPECT_SAYS(result.out, "Exit codes");
+}
+
+TEST(Usage, EveryCommandHelpsWithExamplesAndSharedOptions) {
+  for (const std::string& command : kCommands) {
+    const Result result = weft({command, "--help"});
+    EXPECT_CODE(result, 0);
+    EXPECT_SAYS(result.out, "Examples:\n  weft");
+    for (const char* option :
+         {"--device", "--resolution", "--material", "--solver", "--substeps", "--precision", "--set",
+          "--time", "--frame", "--format", "--validation", "--quiet", "--verbose", "--version"})
+      EXPECT_SAYS(result.out, option);
+  }
+}
+
+TEST(Usage, VersionIsOneLineEverywhere) {
+  for (const Arguments& arguments : {Arguments{"--version"}, Arguments{"simulate", "--version"}}) {
+    const Result result = weft(arguments);
+    EXPECT_CODE(result, 0);
+    EXPECT_EQ(result.out.rfind("weft ", 0), 0u) << result.out;
+    EXPECT_EQ(lines_of(result.out).size(), 1u);
+  }
+}
+
+TEST(Usage, UnknownWordsSuggestTheNearest) {
+  expect_refused({"simulat", "1"}, {"simulat", "did you mean simulate?"});
+  expect_refused({"simulate", "1", "--resolutoin", "9"}, {"--resolutoin", "did you mean --resolution?"});
+  expect_refused({"simulate", "1", "--format", "jsn"},
+                 {"--format", "jsn", "human, json", "did you mean json?"});
+  expect_refused({"simulate", "1", "--solver", "leapfrg", "--device", "cpu"}, {"leapfrg", "leapfrog"});
+  expect_refused({"simulate", "1", "--material", "denin", "--device", "cpu"}, {"denin", "denim"});
+  expect_refused({"simulate", "two-cornes", "--device", "cpu"}, {"two-cornes", "two-corners"});
+  expect_refused({"simulate", "7"}, {"7", "1"});
+}
+
+TEST(Usage, TheCommandComesFirst) {
+  expect_refused({"--device", "cpu", "simulate", "1"}, {"the command comes first", "weft simulate"});
+}
+
+TEST(Usage, EveryValueIsCheckedWithItsPlaceRuleAndCure) {
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{"--time", "-1"}, "--time is \"-1\""},
+      {{"--time", "nan"}, "--time is \"nan\""},
+      {{"--time", "inf"}, "--time is \"inf\""},
+      {{"--time", "1s"}, "--time is \"1s\""},
+      {{"--time", ""}, "--time"},
+      {{"--resolution", "1"}, "2 to 4096"},
+      {{"--resolution", "4097"}, "2 to 4096"},
+      {{"--resolution", "9.5"}, "--resolution is \"9.5\""},
+      {{"--substeps", "-3"}, "auto"},
+      {{"--substeps", "many"}, "auto"},
+      {{"--frame", "0"}, "--frame is \"0\""},
+      {{"--frame", "nan"}, "--frame is \"nan\""},
+      {{"--precision", "f16"}, "f32, f32k, f64"},
+      {{"--precision", "f32k"}, "f32k"},
+      {{"--device", ""}, "--device is empty"},
+      {{"--shaders", "/no/such/folder"}, "--shaders"},
+      {{"--out", ""}, "--out is empty"},
+      {{"--time", "1", "--time", "2"}, "--time"},
+      {{"--time"}, "--time"},
+      {{"2"}, "one argument too many"},
+  };
+  for (const auto& [arguments, part] : cases) {
+    Arguments all{"simulate", "1"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    expect_refused(all, {part});
+  }
+}
+
+TEST(Usage, SetErrorsNameTheKey) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"cloth.resolution", "="},
+      {"cloth.resolutoin=9", "resolution"},
+      {"clothe.resolution=9", "cloth"},
+      {"cloth.resolution=1", "2 to 4096"},
+      {"material.density=-1", "material.density"},
+      {"material.density=nan", "material.density"},
+      {"gravity.acceleration=[1,2]", "gravity.acceleration"},
+      {"cloth.width=\"wide\"", "cloth.width"},
+  };
+  for (const auto& [text, part] : cases)
+    expect_refused({"simulate", "1", "--device", "cpu", "--set", text}, {"--set", part});
+}
+
+TEST(Usage, AQuoteInANameStaysInTheName) {
+  expect_refused({"simulate", "1", "--device", "cpu", "--material", "a\"\n[floor]\nheight=9"}, {"weft: "});
+}
+
+TEST(Usage, OptionsOfLaterVersionsAreNotAcceptedSilently) {
+  expect_refused({"simulate", "1", "--budget", "4"}, {"--budget"});
+  expect_refused({"simulate", "1", "--error", "1e-3"}, {"--error"});
+}
+
+// Without a display the window cannot open: exit 3 where the viewer is built, else exit 2; both say what to
+// run.
+TEST(Usage, ViewWithoutAWindowSaysToRender) {
+  const Environment no_display{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  for (const Arguments& arguments : {Arguments{}, Arguments{"view"}, Arguments{"3"}}) {
+    const Result result = weft(arguments, no_display);
+    EXPECT_TRUE(result.code == 2 || result.code == 3) << result.code << result.err;
+    EXPECT_SAYS(result.err, "weft render");
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST(Usage, ACommandThatNeedsASceneSaysSo) {
+  for (const char* command : {"simulate", "plan", "render"}) expect_refused({command}, {"no scene is given"});
+}
+
+TEST(Usage, NoVulkanDeviceIsExitThreeAndTheCpuStillWorks) {
+  const Environment none{{"VK_DRIVER_FILES", "/nonexistent"}, {"VK_ICD_FILENAMES", "/nonexistent"}};
+  const Arguments command{"simulate", "1", "--resolution", "5", "--time", "0.05"};
+  const Result without = weft(command, none);
+  EXPECT_CODE(without, 3);
+  EXPECT_EQ(without.out, "");
+  Arguments on_cpu = command;
+  on_cpu.insert(on_cpu.end(), {"--device", "cpu"});
+  EXPECT_CODE(weft(on_cpu, none), 0);
+  const Result devices = weft({"devices"}, none);
+  EXPECT_CODE(devices, 0);
+  EXPECT_SAYS(devices.out, "CPU reference");
+  EXPECT_SAYS(devices.err, "no Vulkan device");
+  for (const char* other : {"validate", "bench", "render"}) {
+    const Result refused = weft({other, "1", "--resolution", "5", "--out", "x.png"}, none);
+    EXPECT_NE(refused.code, 0) << other;
+  }
+}
+
+TEST(Usage, AnUnknownDeviceIsExitThreeAndNamesThoseThereAre) {
+  NEEDS_VULKAN();
+  expect_refused({"simulate", "1", "--device", "no such device"}, {"no such device", "0"}, 3);
+  expect_refused({"simulate", "1", "--device", "97"}, {"97"}, 3);
+  expect_refused({"simulate", "1", "--device", "native"}, {"--device cpu"}, 3);
+}
+
+TEST(Usage, DoublePrecisionOnAVulkanDeviceSaysToUseTheCpu) {
+  expect_refused({"simulate", "1", "--precision", "f64"}, {"f64", "--device cpu"});
+}
+
+}  // namespace
+}  // namespace weft::test
