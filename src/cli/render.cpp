@@ -129,7 +129,8 @@ Exit run(const Options& o) {
   fields["pictures"] = film.pictures();
   fields["out"] = o.out->string();
   print_summary(o, setup.scene(), fields,
-                fmt::format(" · {} pictures · {}", film.pictures(), o.out->string()));
+                fmt::format(" · {} {} · {}", film.pictures(), film.pictures() == 1 ? "picture" : "pictures",
+                            o.out->string()));
   return Exit::ok;
 }
 
