@@ -61,7 +61,7 @@ class CpuSimulation final : public Simulation {
     } else {
       for (std::uint32_t r = 0; r < substeps; ++r) run_block(Block::substep, rows[r], r, stats);
     }
-    time_s_ += frame_s;
+    time_s_ = frame_end_s(time_s_, frame_s);
     run_block(Block::frame_end, rows.back(), static_cast<std::uint32_t>(rows.size()) - 1, stats);
     return stats;
   }

@@ -18,4 +18,10 @@ FramePlan frames_for(double time_s, double frame_s, std::uint32_t substeps) {
   return plan;
 }
 
+double frame_end_s(double start_s, double frame_s) {
+  const double sum_s = start_s + frame_s;
+  const double whole_s = std::round(sum_s / frame_s) * frame_s;
+  return std::abs(whole_s - sum_s) <= 1e-9 * frame_s ? whole_s : sum_s;
+}
+
 }  // namespace weft

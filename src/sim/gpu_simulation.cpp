@@ -232,7 +232,7 @@ void VulkanSimulation::end_frame() {
     const Pass& pass = *plan_.steps[(*frame_.order)[place].step].pass;
     frame_.stats.spring_evaluations += pass.spring_evaluations(model_);
   }
-  time_s_ = frame_.start_s + frame_.length_s;
+  time_s_ = frame_end_s(frame_.start_s, frame_.length_s);
   frame_.order.reset();
 }
 

@@ -46,6 +46,10 @@ struct FramePlan {
 };
 FramePlan frames_for(double time_s, double frame_s, std::uint32_t substeps);
 
+/// When a frame that starts at `start_s` ends: the whole multiple of `frame_s` where that is meant, so that
+/// hours of frames do not add up round-off.
+double frame_end_s(double start_s, double frame_s);
+
 template <class AfterFrame>
 void run_for(Simulation& simulation, double time_s, AfterFrame&& after_frame) {
   const double frame_s = simulation.model().scene.solver.frame_s;

@@ -59,6 +59,14 @@ TEST(Frames, CoverTheTimeExactly) {
   EXPECT_EQ(none.whole + none.rest_substeps, 0u);
 }
 
+// Ten minutes of frames added one by one end on the whole second: 36 000/60 is exact in double.
+TEST(Frames, DoNotAddUpRoundOff) {
+  double time_s = 0.0;
+  for (int frame = 0; frame < 36000; ++frame) time_s = frame_end_s(time_s, 1.0 / 60.0);
+  EXPECT_EQ(time_s, 600.0);
+  EXPECT_EQ(frame_end_s(0.3, 0.01), 0.3 + 0.01);  // a short frame ends where it says
+}
+
 TEST(Simulation, CountsWhatItDoes) {
   const Model model = smooth_swing();
   const auto simulation = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
