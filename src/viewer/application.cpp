@@ -4,6 +4,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -187,6 +188,7 @@ void Application::handle_input(double elapsed_s) {
 }
 
 void Application::handle_panels(const PanelWishes& wishes) {
+  resolution_slider_ = wishes.resolution_slider;
   attempt([&] {
     if (wishes.open) open(*wishes.open);
     if (wishes.reset) running_.reset();
@@ -336,14 +338,14 @@ void Application::log() {
       "scale={:.2f} "
       "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
       "stretch={:.5f} "
-      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}",
+      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}",
       running_.simulation().time_s(), running_.pacer().real_time_factor(),
       flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
       running_.figures().frame_ms, painter_.scale(), longest_gap_ms_, running_.figures().rebuild_ms,
       flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
       device_.validation_messages().size(), running_.simulation().plan().substeps,
       running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
-      camera.pitch_rad, camera.distance_m);
+      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","));
   if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
 }
 

@@ -1,5 +1,6 @@
 // The window's main loop and everything it owns, in the order in which it is made.
 #pragma once
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -62,6 +63,7 @@ class Application {
   Panels panels_;
   ViewState view_;
   PanelFacts constant_facts_;
+  std::array<float, 4> resolution_slider_{};
   std::optional<Scene> pending_;
   std::unique_ptr<Film> film_;
   bool scale_was_automatic_ = false;

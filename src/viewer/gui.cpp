@@ -5,7 +5,8 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
 
-#include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 namespace weft {
 namespace {
@@ -25,7 +26,23 @@ void set_look(float scale) {
   style.Colors[ImGuiCol_TitleBg] = {0.10f, 0.12f, 0.16f, 0.95f};
   style.Colors[ImGuiCol_TitleBgActive] = {0.14f, 0.20f, 0.30f, 0.95f};
   style.ScaleAllSizes(scale);
-  ImGui::GetIO().FontGlobalScale = scale;
+}
+
+/// A proportional font where the system has one that ImGui can read; its built-in one elsewhere.
+void load_font(float scale) {
+  static constexpr const char* kFiles[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                           "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                                           "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"};
+  // Latin, Greek, dashes, super- and subscripts, arrows, mathematical signs.
+  static constexpr ImWchar kGlyphs[] = {0x20,   0xff,   0x370,  0x3ff,  0x2010, 0x2027, 0x2070,
+                                        0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+  ImGuiIO& io = ImGui::GetIO();
+  for (const char* file : kFiles) {
+    if (!std::filesystem::exists(file)) continue;
+    if (io.Fonts->AddFontFromFileTTF(file, std::round(14.0f * scale), nullptr, kGlyphs) != nullptr) return;
+  }
+  io.Fonts->AddFontDefault();
+  io.FontGlobalScale = scale;
 }
 
 }  // namespace
@@ -35,6 +52,7 @@ Gui::Gui(gpu::Device& device, Window& window, const Swapchain& swapchain, float 
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // no file left behind; panels have their places
   set_look(scale);
+  load_font(scale);
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
   VkDescriptorPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;

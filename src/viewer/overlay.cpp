@@ -8,6 +8,7 @@
 
 #include "viewer/keys.h"
 #include "viewer/panels.h"
+#include "viewer/parameter_widgets.h"
 
 namespace weft {
 namespace {
@@ -48,10 +49,20 @@ void pace_lines(const RunningScene& running) {
 
 }  // namespace
 
-void draw_overlay(const RunningScene& running, const PanelFacts& facts, const ViewState&) {
-  const float margin = 10.0f;
-  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - margin, margin}, ImGuiCond_Always, {1.0f, 0.0f});
-  ImGui::SetNextWindowBgAlpha(0.62f);
+float draw_overlay(const RunningScene& running, const PanelFacts& facts, const ViewState& view) {
+  // Below the sliders, where no cloth is; in a corner when the panel is hidden.
+  const float scale = ui_scale();
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  if (view.panels) {
+    ImGui::SetNextWindowPos({0.0f, display.y}, ImGuiCond_Always, {0.0f, 1.0f});
+    ImGui::SetNextWindowSizeConstraints({Panels::kWidth * scale, 0.0f}, {Panels::kWidth * scale, display.y});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.06f, 0.07f, 0.085f, 1.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+  } else {
+    ImGui::SetNextWindowPos({10.0f, 10.0f}, ImGuiCond_Always);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.06f, 0.07f, 0.085f, 0.62f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0f);
+  }
   ImGui::Begin("numbers", nullptr, kNote);
   const Grid& grid = running.model().grid;
   const RunFigures& figures = running.figures();
@@ -67,7 +78,11 @@ void draw_overlay(const RunningScene& running, const PanelFacts& facts, const Vi
   if (facts.validating)
     line(facts.validation_messages > 0 ? kBad : ImGui::GetStyleColorVec4(ImGuiCol_Text),
          fmt::format("validation: {} messages", facts.validation_messages));
+  const float height = ImGui::GetWindowHeight();
   ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  return height;
 }
 
 void draw_pass_timings(const RunningScene& running, const ViewState&) {
@@ -77,7 +92,7 @@ void draw_pass_timings(const RunningScene& running, const ViewState&) {
   ImGui::Begin("pass timings", nullptr, kNote);
   const Plan& plan = running.simulation().plan();
   const std::vector<double> ms = running.simulation().step_ms();
-  line("pass          times        ms a frame");
+  line("milliseconds a frame, by pass");
   ImGui::Separator();
   double sum_ms = 0.0;
   if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_SizingFixedFit)) {
@@ -101,7 +116,7 @@ void draw_pass_timings(const RunningScene& running, const ViewState&) {
 
 void draw_help(ViewState& view) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float left = view.panels ? Panels::kWidth * ImGui::GetIO().FontGlobalScale : 0.0f;
+  const float left = view.panels ? Panels::kWidth * ui_scale() : 0.0f;
   ImGui::SetNextWindowPos({left + 0.5f * (size.x - left), 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::Begin("Keys and mouse", &view.help,
@@ -134,7 +149,7 @@ void draw_message(ViewState& view) {
     return;
   }
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float left = view.panels ? Panels::kWidth * ImGui::GetIO().FontGlobalScale : 0.0f;
+  const float left = view.panels ? Panels::kWidth * ui_scale() : 0.0f;
   const float width = std::max(200.0f, size.x - left - 40.0f);
   ImGui::SetNextWindowPos({left + 0.5f * (size.x - left), size.y - 14.0f}, ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, size.y});

@@ -34,10 +34,12 @@ bool row(Scene& scene, std::string_view section, std::string_view key, std::stri
   return parameter != nullptr && parameter_widget(*parameter, scene, 0, label);
 }
 
-bool resolution_slider(Scene& scene) {
+bool resolution_slider(Scene& scene, PanelWishes& wishes) {
   int resolution = static_cast<int>(scene.cloth.resolution);
   const bool changed =
       ImGui::SliderInt("resolution", &resolution, 16, 1024, "%d", ImGuiSliderFlags_Logarithmic);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  wishes.resolution_slider = {low.x, low.y, low.x + ImGui::CalcItemWidth(), high.y};
   tooltip("particles along the width; the shape is carried over, the material stays the same cloth");
   if (changed) scene.cloth.resolution = static_cast<std::uint32_t>(std::clamp(resolution, 2, 4096));
   return changed;
@@ -52,7 +54,7 @@ bool bending_slider(Scene& scene) {
   }
   tooltip("whether the cloth resists bending");
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeightWithSpacing());
+  ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
   if (on) return row(scene, "material", "bend", "bending") || changed;
   ImGui::TextDisabled("bending is off");
   return changed;
@@ -84,7 +86,7 @@ void scene_buttons(const RunningScene& running, const PanelFacts& facts, PanelWi
     const std::string number = std::to_string(k + 1);
     const bool is_open = running.scene().title == facts.scenes[k].title;
     if (is_open) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    if (ImGui::Button(number.c_str(), {38.0f * ImGui::GetIO().FontGlobalScale, 0.0f})) wishes.open = number;
+    if (ImGui::Button(number.c_str(), {38.0f * ui_scale(), 0.0f})) wishes.open = number;
     if (is_open) ImGui::PopStyleColor();
     tooltip(facts.scenes[k].title.c_str());
   }
@@ -107,8 +109,8 @@ void Panels::time_controls(const RunningScene& running, PanelWishes& wishes) {
   tooltip("simulated over real time; the time step stays the same");
 }
 
-void Panels::quick_sliders(Scene& scene, bool& changed, PanelWishes&) {
-  changed |= resolution_slider(scene);
+void Panels::quick_sliders(Scene& scene, bool& changed, PanelWishes& wishes) {
+  changed |= resolution_slider(scene, wishes);
   changed |= row(scene, "material", "membrane", "membrane");
   changed |= row(scene, "material", "shear", "shear");
   changed |= bending_slider(scene);
@@ -173,9 +175,10 @@ void Panels::picture_controls(const PanelFacts& facts, ViewState& view, PanelWis
 
 void Panels::settings(const RunningScene& running, const Scene& pending, const PanelFacts& facts,
                       ViewState& view, PanelWishes& wishes) {
-  const float scale = ImGui::GetIO().FontGlobalScale;
+  const float scale = ui_scale();
   ImGui::SetNextWindowPos({0.0f, 0.0f});
-  ImGui::SetNextWindowSize({kWidth * scale, ImGui::GetIO().DisplaySize.y});
+  const float numbers = view.overlay ? overlay_height_ : 0.0f;
+  ImGui::SetNextWindowSize({kWidth * scale, std::max(200.0f, ImGui::GetIO().DisplaySize.y - numbers)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.085f, 0.095f, 0.115f, 1.0f});
   ImGui::Begin("settings", nullptr,
@@ -208,7 +211,7 @@ PanelWishes Panels::draw(const RunningScene& running, const Scene& pending, cons
   wishes.edit_ended = ImGui::IsMouseReleased(ImGuiMouseButton_Left);
   draw_marks(running, view);
   if (view.panels) settings(running, pending, facts, view, wishes);
-  if (view.overlay) draw_overlay(running, facts, view);
+  if (view.overlay) overlay_height_ = draw_overlay(running, facts, view);
   if (view.timings) draw_pass_timings(running, view);
   if (view.help) draw_help(view);
   draw_message(view);

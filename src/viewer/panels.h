@@ -1,6 +1,7 @@
 // What is written over and beside the scene: sliders, numbers, timings, help, messages. Panels change
 // nothing themselves: they return what a person asked for.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct PanelWishes {
   std::optional<double> speed;
   std::optional<double> scale;  ///< of the drawn picture; 0: automatic
   std::optional<std::string> present_mode;
+  std::array<float, 4> resolution_slider{};  ///< left, top, right, bottom [screen units]; for tests
 };
 
 /// What panels show besides the scene.
@@ -53,10 +55,13 @@ class Panels {
   void quick_sliders(Scene&, bool& changed, PanelWishes&);
   void all_parameters(Scene&, bool& changed, const PanelFacts&, PanelWishes&);
   void picture_controls(const PanelFacts&, ViewState&, PanelWishes&);
+
+  float overlay_height_ = 0.0f;
 };
 
 /// Panels that only show.
-void draw_overlay(const RunningScene&, const PanelFacts&, const ViewState&);
+/// @return height of the numbers [screen units]
+float draw_overlay(const RunningScene&, const PanelFacts&, const ViewState&);
 void draw_pass_timings(const RunningScene&, const ViewState&);
 void draw_help(ViewState&);
 void draw_message(ViewState&);

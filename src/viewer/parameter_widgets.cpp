@@ -23,7 +23,7 @@ const char* number_format(const Parameter& parameter) {
 void explain(const Parameter& parameter) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(320.0f * ImGui::GetIO().FontGlobalScale);
+  ImGui::PushTextWrapPos(320.0f * ui_scale());
   const std::string text = fmt::format(
       "{}.{}: {}\n{}{}", parameter.section, parameter.key, parameter.about, rule_text(parameter),
       parameter.example.empty() ? std::string() : fmt::format("\nfor example {}", parameter.example));
@@ -35,12 +35,20 @@ void explain(const Parameter& parameter) {
 /// Up to three numbers in one row.
 bool edit_numbers(const Parameter& parameter, const std::string& label, double* values, int count) {
   const ImGuiSliderFlags flags = parameter.slider_logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+  const double span = std::max(1.0, std::abs(values[0]));
+  const char* format = number_format(parameter);
+  // ImGui 1.86 leaves a wrong item width behind when its many-component widgets have one component.
+  if (has_slider(parameter) && count == 1)
+    return ImGui::SliderScalar(label.c_str(), ImGuiDataType_Double, values, &parameter.slider_minimum,
+                               &parameter.slider_maximum, format, flags);
   if (has_slider(parameter))
     return ImGui::SliderScalarN(label.c_str(), ImGuiDataType_Double, values, count, &parameter.slider_minimum,
-                                &parameter.slider_maximum, number_format(parameter), flags);
-  const double span = std::max(1.0, std::abs(values[0]));
-  return ImGui::DragScalarN(label.c_str(), ImGuiDataType_Double, values, count,
-                            static_cast<float>(0.01 * span), nullptr, nullptr, number_format(parameter), 0);
+                                &parameter.slider_maximum, format, flags);
+  const auto speed = static_cast<float>(0.01 * span);
+  if (count == 1)
+    return ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, values, speed, nullptr, nullptr, format);
+  return ImGui::DragScalarN(label.c_str(), ImGuiDataType_Double, values, count, speed, nullptr, nullptr,
+                            format);
 }
 
 bool take(const Parameter& parameter, Scene& scene, std::size_t item, const ParameterValue& value) {
@@ -123,6 +131,8 @@ bool list_widgets(std::string_view section, Scene& scene) {
 }
 
 }  // namespace
+
+float ui_scale() { return ImGui::GetFontSize() / 14.0f; }
 
 bool parameter_widget(const Parameter& parameter, Scene& scene, std::size_t item, std::string_view label) {
   const std::string_view shown = label.empty() ? parameter.key : label;

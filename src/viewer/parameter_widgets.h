@@ -6,6 +6,9 @@
 
 namespace weft {
 
+/// How much larger than on an ordinary display text and widgets are.
+float ui_scale();
+
 /// A slider, number field or choice for one parameter, with its unit, and its meaning as a tooltip.
 /// @param label  in place of the key; empty: the key
 /// @return       whether the scene was changed. A value that breaks the row's rule is not taken.

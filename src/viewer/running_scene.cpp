@@ -219,8 +219,11 @@ void RunningScene::set_paused(bool paused) {
 }
 
 void RunningScene::measure() {
+  if (Clock::now() >= next_measure_ && !mid_frame_) measure_now();
+}
+
+void RunningScene::measure_now() {
   const Clock::time_point start = Clock::now();
-  if (start < next_measure_ || mid_frame_) return;
   const State state = simulation_->read();
   std::uint32_t bad = 0;
   if (!all_finite(state, &bad)) {

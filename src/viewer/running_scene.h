@@ -54,6 +54,7 @@ class RunningScene {
   bool paused() const { return paused_; }
   /// Takes a new reading of the stretch if the last one is old enough; stops the scene when it diverged.
   void measure();
+  void measure_now();
 
   /// The hand takes hold of the cloth. @param state  as it is now, where `pick` was found
   void grab(const State& state, const Pick& pick);

@@ -82,13 +82,20 @@ void Window::install_callbacks() {
                                       .mods = mods});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
-    InputEvent event{
-        .kind = InputEvent::Kind::button, .code = button, .pressed = action == GLFW_PRESS, .mods = mods};
-    glfwGetCursorPos(window, &event.x, &event.y);
-    owner(window)->events_.push_back(event);
+    // The place of the latest move, in order; the pointer itself may be elsewhere by now.
+    Window& self = *owner(window);
+    self.events_.push_back({.kind = InputEvent::Kind::button,
+                            .code = button,
+                            .pressed = action == GLFW_PRESS,
+                            .mods = mods,
+                            .x = self.pointer_x_,
+                            .y = self.pointer_y_});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    owner(window)->events_.push_back({.kind = InputEvent::Kind::move, .x = x, .y = y});
+    Window& self = *owner(window);
+    self.pointer_x_ = x;
+    self.pointer_y_ = y;
+    self.events_.push_back({.kind = InputEvent::Kind::move, .x = x, .y = y});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
     owner(window)->events_.push_back({.kind = InputEvent::Kind::scroll, .x = x, .y = y});

@@ -58,6 +58,7 @@ class Window {
 
   GLFWwindow* window_ = nullptr;
   std::vector<InputEvent> events_;
+  double pointer_x_ = 0.0, pointer_y_ = 0.0;
   int restore_x_ = 0, restore_y_ = 0, restore_width_ = 0, restore_height_ = 0;
 };
 

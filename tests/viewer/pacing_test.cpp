@@ -1,0 +1,61 @@
+// The pace of the window: fixed steps from real time, and slow motion that is told.
+#include "viewer/pacing.h"
+
+#include <gtest/gtest.h>
+
+namespace weft {
+namespace {
+
+/// Lets pictures of `picture_s` go by, computing at most `most` frames in each; returns frames computed.
+int run(Pacer& pacer, double picture_s, int pictures, int most) {
+  int frames = 0;
+  for (int k = 0; k < pictures; ++k) {
+    pacer.elapse(picture_s);
+    for (int done = 0; done < most && pacer.frame_due(); ++done, ++frames) pacer.frame_done();
+    pacer.give_up_rest();
+  }
+  return frames;
+}
+
+TEST(Pacer, FramesFollowRealTimeAtAnyPictureRate) {
+  for (const double rate : {30.0, 59.0, 60.0, 61.0, 144.0}) {
+    Pacer pacer(1.0 / 60.0);
+    const int frames = run(pacer, 1.0 / rate, static_cast<int>(10.0 * rate), 100);
+    EXPECT_NEAR(frames, 600, 1) << rate;
+    EXPECT_NEAR(pacer.real_time_factor(), 1.0, 0.04) << rate;
+    EXPECT_FALSE(pacer.slow_motion()) << rate;
+  }
+}
+
+TEST(Pacer, SpeedScalesTheFramesNotTheirLength) {
+  Pacer pacer(1.0 / 60.0);
+  pacer.set_speed(0.25);
+  EXPECT_NEAR(run(pacer, 1.0 / 60.0, 600, 100), 150, 1);
+  EXPECT_EQ(pacer.frame_s(), 1.0 / 60.0);
+  EXPECT_FALSE(pacer.slow_motion()) << "a quarter is what was asked for";
+}
+
+// One frame of 1/60 s in each picture of 1/20 s is a third of real time, and nothing is caught up later.
+TEST(Pacer, WhatCannotBeComputedIsSlowMotion) {
+  Pacer pacer(1.0 / 60.0);
+  EXPECT_EQ(run(pacer, 1.0 / 20.0, 60, 1), 60);
+  EXPECT_NEAR(pacer.real_time_factor(), 1.0 / 3.0, 0.02);
+  EXPECT_TRUE(pacer.slow_motion());
+  EXPECT_LE(run(pacer, 1.0 / 60.0, 60, 100), 62) << "at most one frame of debt remains";
+}
+
+TEST(Pacer, ALongStallIsNotCaughtUp) {
+  Pacer pacer(1.0 / 60.0);
+  EXPECT_LE(run(pacer, 30.0, 1, 100000), static_cast<int>(Pacer::kLongest_s * 60.0) + 1);
+}
+
+TEST(Pacer, RestartForgetsTheDebt) {
+  Pacer pacer(1.0 / 60.0);
+  pacer.elapse(0.2);
+  pacer.restart();
+  EXPECT_FALSE(pacer.frame_due());
+  EXPECT_EQ(pacer.real_time_factor(), 0.0);
+}
+
+}  // namespace
+}  // namespace weft

@@ -1,0 +1,204 @@
+// The running scene on a device: frames in parts, changes while it runs, the hand, and nothing left behind.
+#include "viewer/running_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include "gpu/buffer.h"
+#include "gpu_fixture.h"
+#include "model/measures.h"
+
+namespace weft {
+namespace {
+
+class RunningSceneTest : public test::GpuTest {
+ protected:
+  static RunningScene open(const std::string& which, std::uint32_t resolution = 24) {
+    return RunningScene(device(), {{"cloth.resolution=" + std::to_string(resolution)}}, which);
+  }
+  static void frames(RunningScene& running, int count) {
+    running.set_paused(true);
+    for (int k = 0; k < count; ++k) {
+      running.step();
+      for (double t = running.simulation().time_s();
+           running.simulation().time_s() < t + 1.0 / 61.0 || running.mid_frame();)
+        running.advance(0.0, 0.05);
+    }
+  }
+};
+
+TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
+  const Model model = build_model(load_scene(find_scene("1"), {{"cloth.resolution=24"}}).scene);
+  const Solver& solver = find_solver("leapfrog");
+  const auto whole = GpuSimulation::create(device(), model, solver);
+  const auto parts = GpuSimulation::create(device(), model, solver, {.dispatches_per_submit = 7});
+  for (int frame = 0; frame < 5; ++frame) {
+    whole->advance(1.0 / 60.0, whole->plan().substeps);
+    parts->begin_frame(1.0 / 60.0, parts->plan().substeps);
+    int count = 1;
+    double time_s = parts->time_s();
+    while (parts->continue_frame()) {
+      parts->refresh_normals();  // looking in the middle changes nothing
+      EXPECT_GE(parts->time_s(), time_s);
+      time_s = parts->time_s();
+      ++count;
+    }
+    EXPECT_GT(count, 3);
+  }
+  EXPECT_EQ(state_hash(whole->read()), state_hash(parts->read()));
+  EXPECT_EQ(whole->time_s(), parts->time_s());
+}
+
+TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
+  RunningScene running = open("1");
+  frames(running, 3);
+  const State before = running.simulation().read();
+  const std::uint64_t version = running.version();
+  Scene next = running.scene();
+  next.wind->velocity_m_s = {5.0, 0.0, -2.0};
+  next.air->drag_kg_m2_s = 0.4;
+  running.apply(next);
+  EXPECT_TRUE(running.figures().kept_plan);
+  EXPECT_EQ(running.version(), version);
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
+  // From here on it is the changed scene: a fresh simulation of it, given the same state, goes the same way.
+  const auto fresh = GpuSimulation::create(device(), running.model(), find_solver("leapfrog"));
+  fresh->write(before);
+  frames(running, 2);
+  for (int k = 0; k < 2; ++k) fresh->advance(1.0 / 60.0, fresh->plan().substeps);
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(fresh->read()));
+}
+
+TEST_F(RunningSceneTest, AnEffectLessIsAnotherPlanWithTheSameState) {
+  RunningScene running = open("1");
+  frames(running, 3);
+  const State before = running.simulation().read();
+  Scene next = running.scene();
+  next.wind.reset();
+  next.air.reset();
+  running.apply(next);
+  EXPECT_FALSE(running.figures().kept_plan);
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
+  EXPECT_EQ(running.simulation().time_s(), before.time_s);
+}
+
+TEST_F(RunningSceneTest, AWrongChangeLeavesTheSceneAsItWas) {
+  RunningScene running = open("1");
+  frames(running, 2);
+  const std::uint64_t hash = state_hash(running.simulation().read());
+  Scene wrong = running.scene();
+  wrong.pins.push_back({.at = {0.511, 0.517}, .radius_m = 1e-4});  // holds no particle
+  EXPECT_THROW(running.apply(wrong), Error);
+  EXPECT_THROW(running.open("no-such-scene"), Error);
+  EXPECT_EQ(running.which(), "1");
+  EXPECT_EQ(running.scene().pins.size(), 2u);
+  EXPECT_EQ(state_hash(running.simulation().read()), hash);
+}
+
+TEST_F(RunningSceneTest, ABadEditKeepsTheRunningScene) {
+  const std::string file = testing::TempDir() + "weft-edit.toml";
+  const auto write = [&](const char* text) { std::ofstream(file) << text; };
+  write("[cloth]\nresolution = 16\n[gravity]\n");
+  RunningScene running(device(), {}, file);
+  frames(running, 2);
+  const State before = running.simulation().read();
+  write("[cloth]\nresolution = 1\n");
+  EXPECT_THROW(running.reload(false), Error);
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
+  write("[cloth]\nresolution = 16\n[gravity]\nacceleration = [0, -1, 0]\n");
+  running.reload(false);
+  EXPECT_EQ(running.scene().gravity->acceleration_m_s2.y, -1.0);
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before)) << "the state is carried over";
+}
+
+TEST_F(RunningSceneTest, TheHandMovesWhatItHoldsAndLetsGo) {
+  for (const char* scene : {"1", "4"}) {  // with pins of its own, and without
+    RunningScene running = open(scene);
+    frames(running, 1);
+    const State before = running.simulation().read();
+    const Grid grid = running.model().grid;
+    const std::uint32_t particle = grid.index(12, 20);
+    running.grab(before, {particle, before.position[particle], 1.0});
+    const glm::dvec3 target = before.position[particle] + glm::dvec3(0.05, 0.02, 0.04);
+    running.hand().pull_to(target);
+    frames(running, 3);
+    const State pulled = running.simulation().read();
+    EXPECT_LT(glm::length(pulled.position[particle] - target), 1e-6) << "scene " << scene;
+    EXPECT_TRUE(all_finite(pulled));
+    running.release();
+    EXPECT_FALSE(running.hand().holds());
+    EXPECT_GT(running.model().relative_inverse_mass[particle], 0.0);
+    EXPECT_EQ(running.scene().pins.size(), running.model().scene.pins.size());
+    frames(running, 2);
+    EXPECT_GT(glm::length(running.simulation().read().position[particle] - target), 1e-5) << "it falls again";
+  }
+}
+
+TEST_F(RunningSceneTest, PinsAreMadeAndUnmade) {
+  RunningScene running = open("4");
+  frames(running, 2);
+  const std::uint32_t particle = running.model().grid.index(5, 7);
+  const glm::dvec3 place = running.simulation().read().position[particle];
+  running.toggle_pin(particle, place);
+  ASSERT_EQ(running.hand_pins().size(), 1u);
+  frames(running, 5);
+  EXPECT_EQ(running.simulation().read().position[particle], place);
+  Scene finer = running.scene();
+  finer.cloth.resolution = 70;  // (5, 7) of 24 is (15, 21) of 70
+  running.apply(finer);
+  const std::uint32_t same = running.model().grid.index(15, 21);
+  EXPECT_EQ(running.model().relative_inverse_mass[same], 0.0);
+  EXPECT_LT(glm::length(running.simulation().read().position[same] - place), 1e-6);
+  running.toggle_pin(same, place);
+  EXPECT_TRUE(running.hand_pins().empty());
+  EXPECT_GT(running.model().relative_inverse_mass[same], 0.0);
+}
+
+TEST_F(RunningSceneTest, ScenePinsCanBeTakenAway) {
+  RunningScene running = open("1");
+  running.toggle_pin(0, running.simulation().read().position[0]);
+  EXPECT_EQ(running.scene().pins.size(), 1u);
+  EXPECT_GT(running.model().relative_inverse_mass[0], 0.0);
+}
+
+TEST_F(RunningSceneTest, AHundredChangesLeaveNothingBehind) {
+  RunningScene running = open("1");
+  const auto change = [&](int k) {
+    Scene next = running.scene();
+    next.cloth.resolution = static_cast<std::uint32_t>(16 + (37 * k) % 48);
+    running.apply(next);
+    running.advance(1.0 / 60.0, 0.005);
+    if (k % 4 == 0) running.open(std::to_string(1 + k % 6));
+  };
+  for (int k = 0; k < 6; ++k) change(k);
+  running.open("1");
+  const std::uint64_t count = device().allocator().live_count(), bytes = device().allocator().live_bytes();
+  for (int k = 0; k < 100; ++k) change(k);
+  running.open("1");
+  EXPECT_EQ(device().allocator().live_count(), count);
+  EXPECT_EQ(device().allocator().live_bytes(), bytes);
+}
+
+TEST_F(RunningSceneTest, DivergenceStopsTheScene) {
+  RunningScene running(device(), {{"cloth.resolution=32", "solver.substeps=1", "material.membrane=20000"}},
+                       "1");
+  running.set_paused(true);
+  for (int k = 0; k < 200 && !running.diverged(); ++k) {
+    running.step();
+    running.advance(0.0, 1.0);
+    running.measure_now();
+  }
+  EXPECT_TRUE(running.diverged());
+  Scene sane = running.scene();
+  sane.solver.substeps = 0;
+  running.apply(sane);
+  running.reset();
+  EXPECT_FALSE(running.diverged());
+  frames(running, 1);
+  EXPECT_TRUE(all_finite(running.simulation().read()));
+}
+
+}  // namespace
+}  // namespace weft

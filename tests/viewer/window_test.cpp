@@ -1,0 +1,229 @@
+// The window as a person uses it: real keys and a real mouse on a virtual display, under core and
+// synchronization validation. Skipped with a word where there is no Xvfb, xdotool or Vulkan device.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "gpu_fixture.h"
+#include "render/image.h"
+#include "viewer/window_driver.h"
+
+namespace weft {
+namespace {
+
+using test::WindowUnderTest;
+
+class WindowTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (!test::window_tests_impossible().empty() || !test::gpu_there()) return;
+    setenv("XDG_CACHE_HOME", WEFT_BINARY_DIR "/test-cache", 1);
+    display_ = std::make_unique<test::VirtualDisplay>();
+    setenv("DISPLAY", display_->name().c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+  }
+  static void TearDownTestSuite() { display_.reset(); }
+  void SetUp() override {
+    if (!display_)
+      GTEST_SKIP() << "no window: " << test::window_tests_impossible() << " (or no Vulkan device)";
+  }
+  static void expect_silence(const WindowUnderTest& window) { EXPECT_EQ(window.value("messages"), "0"); }
+
+ private:
+  static inline std::unique_ptr<test::VirtualDisplay> display_;
+};
+
+/// A place along the resolution slider, 0 its left and 1 its right end, as xdotool takes it.
+std::string slider_place(const WindowUnderTest& window, double share) {
+  std::stringstream text(window.value("slider"));
+  double left = 0, top = 0, right = 0, bottom = 0;
+  char comma = 0;
+  text >> left >> comma >> top >> comma >> right >> comma >> bottom;
+  const int x = static_cast<int>(std::lround(left + 8.0 + share * (right - left - 16.0)));
+  return std::to_string(x) + " " + std::to_string(static_cast<int>((top + bottom) / 2.0));
+}
+
+void drag_slider(const WindowUnderTest& window, double share) {
+  window.act("mousemove --window $W " + slider_place(window, share) +
+             " sleep 0.05 mousedown 1 sleep 0.05 mouseup 1");
+}
+
+TEST_F(WindowTest, KeysOpenScenesPauseStepAndShowHelp) {
+  WindowUnderTest window({"1", "--resolution", "20"});
+  for (const char* number : {"3", "6", "2"}) {
+    window.key(number);
+    EXPECT_TRUE(window.wait_for("scene", number));
+  }
+  window.key("space");
+  EXPECT_TRUE(window.wait_for("paused", "1"));
+  window.wait_pictures(2);
+  const double time_s = window.number("time_s");
+  window.wait_pictures(3);
+  EXPECT_EQ(window.number("time_s"), time_s) << "nothing moves while paused";
+  window.key("period");
+  window.key("Right");
+  std::ostringstream later;
+  later << std::fixed;
+  later.precision(6);
+  later << time_s + 2.0 / 60.0;
+  EXPECT_TRUE(window.wait_for("time_s", later.str()))
+      << "two single steps of 1/60 s, at " << window.value("time_s");
+  window.key("r");
+  EXPECT_TRUE(window.wait_for("time_s", "0.000000"));
+  window.key("space");
+  EXPECT_TRUE(window.wait_for("paused", "0"));
+  struct Toggle {
+    const char *key, *name, *on, *off;
+  };
+  for (const Toggle& t : {Toggle{"F1", "help", "1", "0"},
+                          {"F2", "overlay", "0", "1"},
+                          {"F3", "timings", "1", "0"},
+                          {"m", "wireframe", "1", "0"},
+                          {"n", "smooth", "0", "1"},
+                          {"h", "heat", "1", "0"},
+                          {"Tab", "panels", "0", "1"}}) {
+    window.key(t.key);
+    EXPECT_TRUE(window.wait_for(t.name, t.on)) << t.key;
+    window.wait_pictures(2);
+    window.key(t.key);
+    EXPECT_TRUE(window.wait_for(t.name, t.off)) << t.key;
+  }
+  window.key("minus");
+  EXPECT_TRUE(window.wait_for("speed", "0.800"));
+  window.key("equal");
+  EXPECT_TRUE(window.wait_for("speed", "1.000"));
+  expect_silence(window);
+  window.key("Escape");
+  EXPECT_TRUE(window.wait_for("quit_question", "1"));
+  window.key("Escape");
+  EXPECT_TRUE(window.wait_for("quit_question", "0"));
+  window.key("Escape");
+  window.key("Return");
+  EXPECT_EQ(window.exit_code(), 0);
+}
+
+TEST_F(WindowTest, MouseOrbitsZoomsPansPullsAndPins) {
+  WindowUnderTest window({"1", "--resolution", "20"});
+  window.key("space");
+  ASSERT_TRUE(window.wait_for("paused", "1"));
+  const std::string camera = window.value("camera");
+  const auto differs = [&](const std::string& from) {
+    for (int k = 0; k < 100 && window.value("camera") == from; ++k) window.wait_pictures(1, 1.0);
+    return window.value("camera") != from;
+  };
+  window.act("mousemove --window $W 1200 690 mousedown 1 mousemove --window $W --sync 1230 670 mouseup 1");
+  EXPECT_TRUE(differs(camera)) << "orbit";
+  window.key("Home");
+  EXPECT_TRUE(window.wait_for("camera", camera));
+  window.act("mousemove --window $W 1200 690 mousedown 2 mousemove_relative --sync 40 10 mouseup 2");
+  EXPECT_TRUE(differs(camera)) << "pan";
+  window.key("Home");
+  EXPECT_TRUE(window.wait_for("camera", camera));
+  window.act("mousemove --window $W 1200 690 click 4");
+  EXPECT_TRUE(differs(camera)) << "zoom";
+  window.key("Home");
+  EXPECT_TRUE(window.wait_for("camera", camera));
+  window.act("keydown w sleep 0.3 keyup w");
+  EXPECT_TRUE(differs(camera)) << "W";
+  window.key("Home");
+  EXPECT_TRUE(window.wait_for("camera", camera));
+
+  window.key("space");
+  window.act("mousemove --window $W 800 330 mousedown 1 mousemove_relative --sync 12 8");
+  EXPECT_TRUE(window.wait_for("hand", "1")) << "the cloth is held";
+  window.act("mousemove_relative --sync 60 20");
+  window.wait_pictures(3);
+  window.act("mouseup 1");
+  EXPECT_TRUE(window.wait_for("hand", "0"));
+  EXPECT_LT(window.number("stretch"), 1.0) << "a pull stretches, it does not explode";
+  window.key("p");
+  EXPECT_TRUE(window.wait_for("hand_pins", "1") || window.wait_for("pins", "1"))
+      << "pinned under the pointer";
+  expect_silence(window);
+}
+
+TEST_F(WindowTest, ResizeScreenshotAndVideo) {
+  WindowUnderTest window({"5", "--resolution", "20"});
+  for (const auto& [width, height] : {std::pair{700, 500}, {1180, 760}, {402, 301}}) {
+    window.act("windowsize --sync $W " + std::to_string(width) + " " + std::to_string(height));
+    EXPECT_TRUE(window.wait_for("size", std::to_string(width) + "x" + std::to_string(height)));
+    window.wait_pictures(3);
+  }
+  window.key("F12");
+  for (int k = 0; k < 200 && window.events("screenshot").empty(); ++k) window.wait_pictures(1);
+  const Picture picture = read_png(window.folder() / "weft-0001.png");
+  EXPECT_EQ(picture.width, 402u);
+  EXPECT_EQ(picture.height, 301u);
+  window.key("v");
+  EXPECT_TRUE(window.wait_for("filming", "1"));
+  window.wait_pictures(5);
+  window.key("v");
+  EXPECT_TRUE(window.wait_for("filming", "0"));
+  EXPECT_TRUE(std::filesystem::exists(window.folder() / "weft-0001.mp4"));
+  window.act("windowunmap --sync $W");  // as a minimised window: nothing to draw on, nothing to compute for
+  window.act("windowmap --sync $W");
+  EXPECT_TRUE(window.wait_pictures(2));
+  expect_silence(window);
+}
+
+TEST_F(WindowTest, TheResolutionSliderCarriesTheClothOver) {
+  WindowUnderTest window({"1", "--resolution", "24"});
+  window.wait_pictures(10);
+  drag_slider(window, 0.0);
+  EXPECT_TRUE(window.wait_for("resolution", "16"));
+  drag_slider(window, 0.3);
+  for (int k = 0; k < 50 && window.number("resolution") < 40; ++k) window.wait_pictures(1);
+  EXPECT_NEAR(window.number("resolution"), 16.0 * std::pow(64.0, 0.3), 8.0) << "the slider is logarithmic";
+  EXPECT_GT(window.number("time_s"), 0.0) << "the run goes on";
+  EXPECT_LT(window.number("stretch"), 0.5);
+  expect_silence(window);
+}
+
+TEST_F(WindowTest, AHundredScenesAndResolutionsLeaveNothingBehind) {
+  WindowUnderTest window({"1", "--resolution", "20"});
+  const auto settle = [&](const char* scene) {
+    window.key(scene);
+    EXPECT_TRUE(window.wait_for("scene", scene));
+    window.wait_pictures(3);
+    return window.number(
+        "live");  // bytes follow the picture's size, which adapts; running_scene_test has them
+  };
+  const auto once = [&](int k) {
+    const double rebuilds = window.number("rebuilds");
+    window.key(std::to_string(1 + k % 6));
+    drag_slider(window, 0.02 * (k % 8));
+    for (int wait = 0; wait < 100 && window.number("rebuilds") < rebuilds + 2; ++wait)
+      window.wait_pictures(1, 1.0);
+  };
+  for (int k = 0; k < 8; ++k) once(k);  // every pipeline and block has been made once
+  const double before = settle("1");
+  const double rebuilds = window.number("rebuilds");
+  for (int k = 0; k < 100; ++k) once(k);
+  EXPECT_GE(window.number("rebuilds"), rebuilds + 200) << "a scene and a resolution in each round";
+  EXPECT_EQ(settle("1"), before) << "live allocations";
+  expect_silence(window);
+}
+
+TEST_F(WindowTest, RefusesASoftwareDeviceWhenAGpuIsRequired) {
+  std::string output;
+  bool all_software = true;
+  for (const gpu::DeviceInfo& info : gpu::list_devices())
+    all_software &= info.software || !info.unusable.empty();
+  if (!all_software) GTEST_SKIP() << "there is a GPU here";
+  EXPECT_EQ(test::run_command("WEFT_REQUIRE_GPU=1 " WEFT_PROGRAM " view 1", output), 3);
+  EXPECT_NE(output.find("software device"), std::string::npos) << output;
+  EXPECT_EQ(test::run_command(WEFT_PROGRAM " view 1 --device no-such-device", output), 3) << output;
+  EXPECT_EQ(test::run_command(WEFT_PROGRAM " view no-such-scene", output), 2) << output;
+}
+
+TEST(Display, WithoutOneTheMessageSaysWhatToDo) {
+  std::string output;
+  EXPECT_EQ(test::run_command("env -u DISPLAY -u WAYLAND_DISPLAY " WEFT_PROGRAM " view 1", output), 3);
+  EXPECT_NE(output.find("weft render"), std::string::npos) << output;
+  EXPECT_NE(output.find("no display"), std::string::npos) << output;
+}
+
+}  // namespace
+}  // namespace weft
