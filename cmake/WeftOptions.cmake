@@ -39,6 +39,9 @@ if(WEFT_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet --extra-arg=-Wno-unknown-warning-option)
 endif()
 
+# For code that is not hot (the command line, the tests): compiles in two thirds of the time.
+set(WEFT_COLD $<$<CONFIG:Release>:-O1>)
+
 find_program(WEFT_CCACHE ccache)
 if(WEFT_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${WEFT_CCACHE})
