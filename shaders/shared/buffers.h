@@ -11,6 +11,14 @@
   ROW(position_next, 3, vec4, "the other half of position's ping-pong")                          \
   ROW(velocity, 4, vec4, "m/s; w unused")                                                        \
   ROW(velocity_next, 5, vec4, "the other half of velocity's ping-pong")                          \
-  ROW(normal, 6, vec4, "unit vertex normal; w unused")
+  ROW(normal, 6, vec4, "unit vertex normal; w unused")                                            \
+  ROW(half_velocity, 7, vec4, "velocity Verlet: m/s between two kicks; w unused")                \
+  ROW(position_previous, 8, vec4, "Verlet: m, one substep ago; w unused")                        \
+  ROW(base_position, 9, vec4, "Runge-Kutta: m at the step's start; w unused")                    \
+  ROW(base_velocity, 10, vec4, "Runge-Kutta: m/s at the step's start; w unused")                 \
+  ROW(sum_position, 11, vec4, "Runge-Kutta: m, the weighted stages so far; w unused")            \
+  ROW(sum_velocity, 12, vec4, "Runge-Kutta: m/s, the weighted stages so far; w unused")          \
+  ROW(constraints, 13, vec4, "XPBD: rest [m], compliance [m/N], damping time [s] of each kind")  \
+  ROW(compensation, 14, vec4, "f32k: m, what position has lost to rounding; w unused")
 
 #endif

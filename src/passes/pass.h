@@ -38,6 +38,8 @@ struct KickDrift {
   double kick_s = 0, drift_s = 0;
   double kick_time_s = 0;   ///< when the kick's wind is evaluated
   double drift_time_s = 0;  ///< when the drift begins
+  double predict_s = 0;     ///< a further kick that only predicts a velocity; 0: none
+  bool plain_air = false;   ///< Runge–Kutta: air is an ordinary force; the row has α and no decay
 };
 
 /// What a mirror sees: the model, the constants of the step, which dispatch of the frame it is.
@@ -46,6 +48,7 @@ struct MirrorContext {
   std::span<const Constant> constants;
   const KickDrift& row;
   std::uint32_t row_index = 0;
+  std::uint32_t item = 0;  ///< of the plan's step: which part of the pass's work
 };
 
 struct Pass {
@@ -58,6 +61,11 @@ struct Pass {
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
   Tolerance tolerance;
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
+  bool marches = false;  ///< one invocation may take several rows: constant 10 of its shader says how many
+  /// For passes that a solver lists once an item (a colour of springs): where that item runs and how many
+  /// springs it evaluates. domain and spring_evaluations are not asked then.
+  Range (*item_domain)(const Model&, std::uint32_t item) = nullptr;
+  std::uint64_t (*item_spring_evaluations)(const Model&, std::uint32_t item) = nullptr;
 };
 
 }  // namespace weft

@@ -6,7 +6,7 @@
 namespace weft {
 
 std::span<const Pass* const> passes() {
-  static constexpr std::array<const Pass*, 2> kPasses{&integrate, &normals};
+  static constexpr std::array kPasses{&integrate, &euler_step, &velocity_verlet_step, &verlet_step, &normals};
   return kPasses;
 }
 

@@ -6,8 +6,11 @@
 
 namespace weft {
 
-extern const Pass integrate;  ///< forces, kick, drift, contact: one substep
-extern const Pass normals;    ///< vertex normals from the adjacent triangles
+extern const Pass integrate;             ///< forces, kick, drift, contact: one substep
+extern const Pass euler_step;            ///< the same with the drift first
+extern const Pass velocity_verlet_step;  ///< integrate with a predicted velocity for the damping
+extern const Pass verlet_step;           ///< two positions in place of position and velocity
+extern const Pass normals;               ///< vertex normals from the adjacent triangles
 
 /// All of them; `validate` walks this list.
 std::span<const Pass* const> passes();

@@ -35,7 +35,7 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
   for (const KickDrift& kick_drift : rows) {
     const SubstepRow<float> row = substep_row<float>(model, kick_drift);
     table.emplace_back(row.alpha_wind, row.decay);
-    table.emplace_back(row.gain, row.drift, 0.0f, 0.0f);
+    table.emplace_back(row.gain, row.drift, row.predict_gain, row.predict_decay);
     for (const SphereRow<float>& sphere : row.spheres) {
       table.emplace_back(sphere.center, sphere.reach);
       table.emplace_back(sphere.travel, sphere.friction);

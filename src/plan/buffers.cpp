@@ -8,18 +8,18 @@
 
 namespace weft {
 
-std::uint32_t substep_row_capacity(std::uint32_t substeps) { return std::bit_ceil(substeps + 1); }
+std::uint32_t substep_row_capacity(std::uint32_t rows) { return std::bit_ceil(rows); }
 
 std::uint32_t substep_row_stride(const Model& model) {
   return shared::kRowHeadVec4s +
          shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size());
 }
 
-std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t substeps) {
+std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows) {
   const std::uint64_t element = row_of(id).element_bytes;
   switch (id) {
     case BufferId::params: return element;
-    case BufferId::substeps: return element * substep_row_capacity(substeps) * substep_row_stride(model);
+    case BufferId::substeps: return element * substep_row_capacity(rows) * substep_row_stride(model);
     default:  // one element a particle
       return element * model.grid.count();
   }
@@ -34,7 +34,15 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
                                             BufferId::position, BufferId::position_next,
                                             BufferId::velocity, BufferId::velocity_next};
   static constexpr std::array kNormals = {BufferId::params, BufferId::position, BufferId::normal};
-  if (&pass == &integrate) return kIntegrate;
+  static constexpr std::array kVelocityVerlet = {
+      BufferId::params,   BufferId::substeps,      BufferId::position,     BufferId::position_next,
+      BufferId::velocity, BufferId::velocity_next, BufferId::half_velocity};
+  static constexpr std::array kVerlet = {
+      BufferId::params,   BufferId::substeps,      BufferId::position,         BufferId::position_next,
+      BufferId::velocity, BufferId::velocity_next, BufferId::position_previous};
+  if (&pass == &integrate || &pass == &euler_step) return kIntegrate;
+  if (&pass == &velocity_verlet_step) return kVelocityVerlet;
+  if (&pass == &verlet_step) return kVerlet;
   if (&pass == &normals) return kNormals;
   return {};
 }

@@ -11,15 +11,16 @@ namespace weft {
 /// writing the next frame's never races with the one that runs.
 inline constexpr std::uint32_t kFrameSlots = 2;
 
-/// Rows of one substep table: the next power of two that holds n substeps and the closing kick, so that small
-/// changes of n keep the buffer.
-std::uint32_t substep_row_capacity(std::uint32_t substeps);
+/// Rows that one substep table has room for: the next power of two, so that small changes of n keep the
+/// buffer.
+/// @param rows  of a frame (Plan::row_count)
+std::uint32_t substep_row_capacity(std::uint32_t rows);
 
 /// vec4s from one row of the substep table to the next: its head and every sphere (shared/params.h).
 std::uint32_t substep_row_stride(const Model& model);
 
-/// Bytes of one copy of a buffer for this model and number of substeps a frame.
-std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t substeps);
+/// Bytes of one copy of a buffer for this model and number of rows a frame.
+std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows);
 
 /// Copies there are of a buffer: kFrameSlots of what the host writes each frame, one of all else.
 std::uint32_t slot_count(BufferId id);

@@ -74,7 +74,7 @@ std::vector<LeftOut> left_out_effects(const Model& model, const std::vector<Plan
   return left_out;
 }
 
-std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t substeps,
+std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t rows,
                                     const std::vector<PlanStep>& steps) {
   std::set<BufferId> needed;
   for (const PlanStep& step : steps) {
@@ -82,7 +82,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t substeps,
     needed.insert(touched.begin(), touched.end());
   }
   std::vector<PlanBuffer> buffers;
-  for (const BufferId id : needed) buffers.push_back({id, slot_bytes(id, model, substeps) * slot_count(id)});
+  for (const BufferId id : needed) buffers.push_back({id, slot_bytes(id, model, rows) * slot_count(id)});
   return buffers;
 }
 
@@ -91,10 +91,14 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
   for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
     for (const SolverStep& step : solver.steps) {
       if (step.block != block) continue;
-      const Range range = step.pass->domain(model);
+      const Pass& pass = *step.pass;
+      const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
       if (range.empty()) continue;
-      steps.push_back(
-          {step.pass, block, block == Block::substep ? substeps : 1, range, step.pass->constants(model)});
+      const std::uint64_t springs = pass.item_spring_evaluations
+                                        ? pass.item_spring_evaluations(model, step.item)
+                                        : pass.spring_evaluations(model);
+      steps.push_back({&pass, block, block == Block::substep ? substeps : 1, range, pass.constants(model),
+                       step.row, step.item, springs});
     }
   return steps;
 }
@@ -112,10 +116,14 @@ Plan compile_plan(const Model& model, const Solver& solver) {
   plan.solver = &solver;
   plan.substeps = substeps_per_frame(model, solver);
   if (solver.frame_f64 != nullptr || solver.steps.empty())
-    plan.steps = {{&cpu_reference_frame, Block::frame_start, 1, whole_cloth(model), {}}};
+    plan.steps = {{.pass = &cpu_reference_frame,
+                   .block = Block::frame_start,
+                   .repeat = 1,
+                   .range = whole_cloth(model),
+                   .constants = {}}};
   else
     plan.steps = steps_for(model, solver, plan.substeps);
-  plan.buffers = buffers_for(model, plan.substeps, plan.steps);
+  plan.buffers = buffers_for(model, plan.row_count(), plan.steps);
   plan.left_out = left_out_effects(model, plan.steps);
   return plan;
 }

@@ -18,6 +18,9 @@ struct PlanStep {
   std::uint32_t repeat;  ///< dispatches a frame
   Range range;
   Constants constants;
+  std::uint32_t row = 0;                 ///< which of its substep's rows it reads
+  std::uint32_t item = 0;                ///< which part of the pass's work it does
+  std::uint64_t spring_evaluations = 0;  ///< of one dispatch
 };
 
 struct PlanBuffer {
@@ -38,6 +41,13 @@ struct Plan {
   std::vector<LeftOut> left_out;
   std::uint64_t bytes() const;
   std::uint64_t dispatches() const;  ///< a full frame's
+  std::uint32_t row_count() const {
+    return substeps * solver->rows_per_substep + 1;
+  }  ///< room for the closing row
+  /// The table's row that `step` reads in substep `substep` (its number in the frame; n after the last).
+  std::uint32_t table_row(const PlanStep& step, std::uint32_t substep) const {
+    return substep * solver->rows_per_substep + step.row;
+  }
 };
 
 Plan compile_plan(const Model& model, const Solver& solver);

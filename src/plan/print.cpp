@@ -34,7 +34,7 @@ std::string constants_text(const Constants& constants) {
 std::string buffer_note(BufferId id, const Model& model, const Plan& plan) {
   if (id != BufferId::substeps) return std::string(row_of(id).unit);
   return fmt::format("{}; {} copies of {} rows", row_of(id).unit, slot_count(id),
-                     slot_bytes(id, model, plan.substeps) / (16 * substep_row_stride(model)));
+                     slot_bytes(id, model, plan.row_count()) / (16 * substep_row_stride(model)));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class CpuSimulation final : public Simulation {
     const Solver& solver = *plan_.solver;
     const std::vector<KickDrift> rows = solver.schedule(time_s_, frame_s, substeps);
     FrameStats stats{.substeps = substeps};
-    run_block(Block::frame_start, rows.front(), 0, stats);
+    run_block(Block::frame_start, rows, 0, stats);
     if (const auto frame = Precision<T>::frame(solver)) {
       State state = read();
       frame(model_, state, frame_s, substeps);
@@ -59,10 +59,10 @@ class CpuSimulation final : public Simulation {
       stats.spring_evaluations +=
           std::uint64_t{solver.force_evaluations_per_substep} * substeps * model_.spring_count;
     } else {
-      for (std::uint32_t r = 0; r < substeps; ++r) run_block(Block::substep, rows[r], r, stats);
+      for (std::uint32_t k = 0; k < substeps; ++k) run_block(Block::substep, rows, k, stats);
     }
     time_s_ = frame_end_s(time_s_, frame_s);
-    run_block(Block::frame_end, rows.back(), static_cast<std::uint32_t>(rows.size()) - 1, stats);
+    run_block(Block::frame_end, rows, substeps, stats);
     return stats;
   }
 
@@ -76,17 +76,19 @@ class CpuSimulation final : public Simulation {
   /// Parameters and substep rows have no place here: mirrors compute them from the model.
   static bool held_here(BufferId id) { return id != BufferId::params && id != BufferId::substeps; }
 
-  void run_block(Block block, const KickDrift& row, std::uint32_t row_index, FrameStats& stats) {
+  void run_block(Block block, const std::vector<KickDrift>& rows, std::uint32_t substep, FrameStats& stats) {
+    static constexpr KickDrift kNone;  // what a step after the last row sees when there is no closing one
     for (const PlanStep& step : plan_.steps) {
       const auto mirror = Precision<T>::mirror(*step.pass);
       if (step.block != block || mirror == nullptr) continue;  // no mirror: the solver's frame runs it
-      mirror({model_, step.constants, row, row_index}, buffers_);
+      const std::uint32_t row = plan_.table_row(step, substep);
+      mirror({model_, step.constants, row < rows.size() ? rows[row] : kNone, row, step.item}, buffers_);
       if (step.pass->swaps_state) {
         std::swap(buffers_[BufferId::position], buffers_[BufferId::position_next]);
         std::swap(buffers_[BufferId::velocity], buffers_[BufferId::velocity_next]);
       }
       ++stats.dispatches;
-      stats.spring_evaluations += step.pass->spring_evaluations(model_);
+      stats.spring_evaluations += step.spring_evaluations;
     }
   }
 

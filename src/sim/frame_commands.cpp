@@ -52,14 +52,14 @@ std::unique_ptr<FrameCommands::Chunk> FrameCommands::record(const ChunkKey& key,
     Parity parity = key.parity;
     std::uint32_t run = 0;
     for (std::uint32_t place = key.first; place < key.first + key.count; ++place) {
-      const auto [step, row] = order[place];
+      const auto [step, substep] = order[place];
       if (place == key.first) recorder.label(plan_.steps[step].pass->name);
       if (step != chunk->runs[run]) {
         recorder.end_label();
         chunk->timer->stamp(commands, ++run);
         recorder.label(plan_.steps[step].pass->name);
       }
-      program_.dispatch(recorder, step, parity, key.slot, row);
+      program_.dispatch(recorder, step, parity, key.slot, plan_.table_row(plan_.steps[step], substep));
       if (program_.flips(step)) parity ^= 1u;
     }
     recorder.end_label();

@@ -15,8 +15,8 @@ namespace weft {
 class DispatchOrder {
  public:
   struct Dispatch {
-    std::size_t step;   ///< in the plan
-    std::uint32_t row;  ///< of the substep table: the substep, or n after the last
+    std::size_t step;       ///< in the plan
+    std::uint32_t substep;  ///< n after the last
   };
   DispatchOrder(const Plan& plan, std::uint32_t substeps);
   std::uint32_t count() const { return count_; }

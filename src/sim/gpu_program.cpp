@@ -2,6 +2,7 @@
 #include "sim/gpu_program.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -28,7 +29,7 @@ struct Variant {
 /// its threads. A GPU's caches make loads cheap, and it needs the invocations.
 Variant variant_for(const gpu::Device& device, const PlanStep& step) {
   Variant variant{"passes/" + std::string(step.pass->name) + ".comp", 1, {}};
-  if (step.pass == &integrate) {
+  if (step.pass->marches) {
     if (device.info().software) variant.rows = std::clamp(step.range.y / 16, 4u, 16u);
     variant.constants = {variant.rows};
   }
@@ -115,7 +116,8 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
     const std::size_t kernel = kernel_for(device, step, buffers, *pipelines);
     const auto& local = kernels_[kernel].pipeline->reflection().local_size;
     const std::uint32_t rows = local[1] * kernels_[kernel].rows;
-    steps_.push_back({kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + rows - 1) / rows});
+    steps_.push_back(
+        {kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + rows - 1) / rows, step.item});
   }
 }
 
@@ -153,8 +155,9 @@ void GpuProgram::dispatch(gpu::Recorder& recorder, std::size_t step, Parity pari
                           std::uint32_t row) const {
   const Step& place = steps_[step];
   const Kernel& kernel = kernels_[place.kernel];
-  const bool takes_row = kernel.pipeline->reflection().push_constant_bytes > 0;
-  const auto push = std::as_bytes(std::span(&row, takes_row ? 1 : 0));
+  const std::array<std::uint32_t, 2> words{row, place.item};
+  const std::size_t taken = kernel.pipeline->reflection().push_constant_bytes / sizeof(std::uint32_t);
+  const auto push = std::as_bytes(std::span(words).first(taken));
   recorder.dispatch(*kernel.pipeline, kernel.sets[parity * kFrameSlots + slot], place.groups_x,
                     place.groups_y, push);
 }

@@ -64,7 +64,7 @@ class GpuProgram {
   };
   struct Step {
     std::size_t kernel;
-    std::uint32_t groups_x, groups_y;
+    std::uint32_t groups_x, groups_y, item;
   };
   std::size_t kernel_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&);
   std::vector<Kernel> kernels_;

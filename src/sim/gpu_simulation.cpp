@@ -32,7 +32,8 @@ bool same_commands(const Plan& a, const Plan& b) {
       return c.name == d.name && c.value == d.value;
     };
     return x.pass == y.pass && x.block == y.block && x.range.x == y.range.x && x.range.y == y.range.y &&
-           x.range.offset == y.range.offset && std::ranges::equal(x.constants, y.constants, same_constant);
+           x.range.offset == y.range.offset && x.row == y.row && x.item == y.item &&
+           std::ranges::equal(x.constants, y.constants, same_constant);
   };
   const auto same_buffer = [](const PlanBuffer& x, const PlanBuffer& y) {
     return x.id == y.id && x.bytes == y.bytes;
@@ -148,7 +149,7 @@ void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::
   if (table_.size() * sizeof(shared::vec4) > table.bytes())
     throw error(Exit::internal,
                 "a frame of {} substeps needs {} rows; the plan of {} substeps has room for {}", substeps,
-                rows.size(), plan_.substeps, substep_row_capacity(plan_.substeps));
+                rows.size(), plan_.substeps, substep_row_capacity(plan_.row_count()));
   table.write(std::as_bytes(std::span(table_)));
 }
 
@@ -220,7 +221,7 @@ bool VulkanSimulation::continue_frame() {
   frame_.done += count;
   if (pacer_.learning()) finish(slots_[frame_.slot]);
   if (frame_.done < order.count()) {
-    time_s_ = frame_.start_s + frame_.length_s * order[frame_.done].row / frame_.substeps;
+    time_s_ = frame_.start_s + frame_.length_s * order[frame_.done].substep / frame_.substeps;
     return true;
   }
   end_frame();
@@ -228,10 +229,8 @@ bool VulkanSimulation::continue_frame() {
 }
 
 void VulkanSimulation::end_frame() {
-  for (std::uint32_t place = 0; place < frame_.order->count(); ++place) {
-    const Pass& pass = *plan_.steps[(*frame_.order)[place].step].pass;
-    frame_.stats.spring_evaluations += pass.spring_evaluations(model_);
-  }
+  for (std::uint32_t place = 0; place < frame_.order->count(); ++place)
+    frame_.stats.spring_evaluations += plan_.steps[(*frame_.order)[place].step].spring_evaluations;
   time_s_ = frame_end_s(frame_.start_s, frame_.length_s);
   frame_.order.reset();
 }

@@ -40,10 +40,10 @@ PassRunner::PassRunner(gpu::Device& device, const Model& model, const Plan& plan
       buffers_(device, model, plan_),
       program_(device, plan_, buffers_) {}
 
-bool PassRunner::writes(std::size_t step, BufferId id) const {
+PassRunner::Use PassRunner::use_of(std::size_t step, BufferId id) const {
   for (const gpu::Binding& binding : program_.pipeline(step).reflection().bindings)
-    if (binding.binding == static_cast<std::uint32_t>(id)) return binding.writes;
-  return false;
+    if (binding.binding == static_cast<std::uint32_t>(id)) return {binding.reads, binding.writes};
+  return {};
 }
 
 std::map<BufferId, PassRunner::Bytes> PassRunner::contents(std::size_t step, const HostBuffers<float>& input,
@@ -63,7 +63,7 @@ std::map<BufferId, PassRunner::Bytes> PassRunner::contents(std::size_t step, con
       fill_substep_rows(model_, rows, table);
       perturbation_.apply(table, substep_row_stride(model_));
       std::memcpy(bytes.data(), table.data(), std::min(bytes.size(), table.size() * sizeof table[0]));
-    } else if (writes(step, id)) {
+    } else if (const Use use = use_of(step, id); use.writes && !use.reads) {
       fill_poison(bytes);
     } else if (!input[id].empty()) {
       std::memcpy(bytes.data(), input[id].data(), bytes.size());
@@ -86,7 +86,7 @@ PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, st
   });
   PassResult result;
   for (const auto& [id, bytes] : before) {
-    const bool output = writes(step, id);
+    const bool output = use_of(step, id).writes;
     if (output) result.outputs.push_back(id);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) {
       Bytes after(bytes.size());

@@ -19,8 +19,8 @@ struct PassResult {
 class PassRunner {
  public:
   PassRunner(gpu::Device&, const Model&, const Plan&, const Perturbation&);
-  /// Runs plan step `step` once on row `row_index` of `rows`. `input` gives position and velocity; what the
-  /// pass writes is filled with NaN first, what it does not touch with a pattern.
+  /// Runs plan step `step` once on row `row_index` of `rows`. `input` gives position, velocity and what else
+  /// there is; what the pass only writes is filled with NaN first, what `input` lacks with a pattern.
   PassResult run(std::size_t step, const HostBuffers<float>& input, std::span<const KickDrift> rows,
                  std::uint32_t row_index);
 
@@ -28,7 +28,10 @@ class PassRunner {
   using Bytes = std::vector<std::byte>;
   std::map<BufferId, Bytes> contents(std::size_t step, const HostBuffers<float>& input,
                                      std::span<const KickDrift> rows) const;
-  bool writes(std::size_t step, BufferId id) const;
+  struct Use {
+    bool reads = false, writes = false;
+  };
+  Use use_of(std::size_t step, BufferId id) const;
   gpu::Device& device_;
   const Model& model_;
   Plan plan_;

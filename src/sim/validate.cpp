@@ -57,7 +57,13 @@ class Validator {
 
  private:
   void check_passes(const Perturbation& perturbation);
-  void check_step(PassRunner& runner, std::size_t step, const ProbeState& probe);
+  struct Walk {  ///< through a frame
+    const ProbeState& probe;
+    std::vector<KickDrift> rows;
+    HostBuffers<float> host;
+  };
+  void check_frame(PassRunner& runner, const ProbeState& probe);
+  void check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk);
   void check_lockstep();
   void compare_states(const std::string& name, const State& got, const State& expected, double steps);
 
@@ -71,21 +77,40 @@ class Validator {
 
 void Validator::check_passes(const Perturbation& perturbation) {
   PassRunner runner(device_, model_, plan_, perturbation);
-  for (const ProbeState& probe : probe_states(model_, solver_))
-    for (std::size_t step = 0; step < plan_.steps.size(); ++step) check_step(runner, step, probe);
+  for (const ProbeState& probe : probe_states(model_, solver_)) check_frame(runner, probe);
 }
 
-void Validator::check_step(PassRunner& runner, std::size_t step, const ProbeState& probe) {
+/// Whether the solver keeps more than positions and velocities from one substep to the next, so that the
+/// frame's first substep differs from the others.
+bool keeps_more(const Plan& plan) {
+  return std::ranges::any_of(plan.buffers, [](const PlanBuffer& b) { return b.id > BufferId::normal; });
+}
+
+/// Walks through a frame whose state begins as the probe: its start, one substep or two, its end. The mirrors
+/// lead, so that each step is checked on what the ones before it leave.
+void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
+  const std::uint32_t n = plan_.substeps, checked = std::min(n, keeps_more(plan_) ? 2u : 1u);
+  Walk walk{.probe = probe,
+            .rows = solver_.schedule(probe.state.time_s, model_.scene.solver.frame_s, n),
+            .host = {}};
+  walk.rows.resize(plan_.row_count());  // a closing row of zeros where the schedule has none
+  load_state(model_, probe.state, walk.host);
+  const auto check_block = [&](Block block, std::uint32_t substep) {
+    for (std::size_t step = 0; step < plan_.steps.size(); ++step)
+      if (plan_.steps[step].block == block) check_step(runner, step, substep, walk);
+  };
+  check_block(Block::frame_start, 0);
+  for (std::uint32_t k = 0; k < checked; ++k) check_block(Block::substep, k);
+  check_block(Block::frame_end, n);
+}
+
+void Validator::check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk) {
   const PlanStep& planned = plan_.steps[step];
-  const double frame_s = model_.scene.solver.frame_s;
-  const std::vector<KickDrift> rows = solver_.schedule(probe.state.time_s, frame_s, plan_.substeps);
-  const auto last = static_cast<std::uint32_t>(rows.size() - 1);
-  const std::uint32_t row_index = planned.block == Block::frame_end ? last : std::min(1u, last);
-  HostBuffers<float> host;
-  load_state(model_, probe.state, host);
-  const PassResult result = runner.run(step, host, rows, row_index);
-  const MirrorContext context{model_, planned.constants, rows[row_index], row_index};
-  planned.pass->mirror_f32(context, host);
+  const ProbeState& probe = walk.probe;
+  HostBuffers<float>& host = walk.host;
+  const std::uint32_t row_index = plan_.table_row(planned, substep);
+  const PassResult result = runner.run(step, host, walk.rows, row_index);
+  planned.pass->mirror_f32({model_, planned.constants, walk.rows[row_index], row_index, planned.item}, host);
 
   const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
   for (const BufferId id : result.outputs) {
@@ -97,6 +122,9 @@ void Validator::check_step(PassRunner& runner, std::size_t step, const ProbeStat
   others.ok = result.touched.empty();
   others.verdict = others.ok ? "untouched" : fmt::format("touched: {}", row_of(result.touched[0]).name);
   report_.rows.push_back(std::move(others));
+  if (!planned.pass->swaps_state) return;
+  std::swap(host[BufferId::position], host[BufferId::position_next]);
+  std::swap(host[BufferId::velocity], host[BufferId::velocity_next]);
 }
 
 std::vector<glm::vec4> as_vec4(const std::vector<glm::dvec3>& vectors) {

@@ -23,7 +23,7 @@ const Solver leapfrog{
     .order = 2,
     .on_gpu = true,
     .steps = kSteps,
-    .step_max_s = [](const StepBound& bound) { return step_max(bound, 4.0, 4.0); },
+    .step_max_s = leapfrog_step_max,
     .schedule = leapfrog_schedule,
     .frame_f32 = nullptr,
     .frame_f64 = nullptr,

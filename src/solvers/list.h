@@ -4,7 +4,11 @@
 
 namespace weft {
 
-extern const Solver leapfrog;  ///< kick–drift, second order: the default
-extern const Solver rk4;       ///< classical Runge–Kutta: the converged truth, CPU only
+extern const Solver leapfrog;          ///< kick–drift, second order: the default
+extern const Solver velocity_verlet;   ///< leapfrog that damps with a predicted velocity
+extern const Solver symplectic_euler;  ///< kick–drift without half kicks, first order
+extern const Solver verlet;            ///< positions only, as cloth demos teach it
+extern const Solver euler;             ///< explicit Euler: shown because it fails
+extern const Solver rk4;               ///< classical Runge–Kutta: the converged truth
 
 }  // namespace weft

@@ -18,6 +18,8 @@ enum class Block { frame_start, substep, frame_end };
 struct SolverStep {
   const Pass* pass;
   Block block;
+  std::uint32_t row = 0;   ///< which of the substep's rows it reads
+  std::uint32_t item = 0;  ///< which part of the pass's work it does
 };
 
 struct Solver {
@@ -29,12 +31,14 @@ struct Solver {
   std::span<const SolverStep> steps;
   /// Largest stable step [s] for the model's bound; infinite when nothing is stiff.
   double (*step_max_s)(const StepBound&);
-  /// The n + (closing) rows of a frame that starts at `start_s` and lasts `frame_s`.
+  /// The rows of a frame that starts at `start_s` and lasts `frame_s`: rows_per_substep for each of n
+  /// substeps, then the closing row where there is one.
   std::vector<KickDrift> (*schedule)(double start_s, double frame_s, std::uint32_t substeps);
   /// One frame on the reference for solvers that are not a list of passes (Runge–Kutta); else nullptr.
   void (*frame_f32)(const Model&, State&, double frame_s, std::uint32_t substeps);
   void (*frame_f64)(const Model&, State&, double frame_s, std::uint32_t substeps);
   std::uint32_t force_evaluations_per_substep;  ///< and one closing evaluation a frame for kick–drift schemes
+  std::uint32_t rows_per_substep = 1;
 };
 
 /// Every solver, in the order they are listed to people.

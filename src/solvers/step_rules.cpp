@@ -24,4 +24,14 @@ std::vector<KickDrift> leapfrog_schedule(double start_s, double frame_s, std::ui
   return rows;
 }
 
+std::vector<KickDrift> whole_kick_schedule(double start_s, double frame_s, std::uint32_t substeps) {
+  const double h = frame_s / substeps;
+  std::vector<KickDrift> rows;
+  rows.reserve(substeps);
+  for (std::uint32_t k = 0; k < substeps; ++k) rows.push_back({h, h, start_s + k * h, start_s + k * h});
+  return rows;
+}
+
+double leapfrog_step_max(const StepBound& bound) { return step_max(bound, 4.0, 4.0); }
+
 }  // namespace weft

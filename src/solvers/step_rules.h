@@ -14,4 +14,10 @@ double step_max(const StepBound& bound, double scale, double factor);
 /// drift 0. The kick at start + k·h sees the wind of that time.
 std::vector<KickDrift> leapfrog_schedule(double start_s, double frame_s, std::uint32_t substeps);
 
+/// n times kick(h) drift(h): first-order schemes, whose position and velocity belong to the same time anyway.
+std::vector<KickDrift> whole_kick_schedule(double start_s, double frame_s, std::uint32_t substeps);
+
+/// Leapfrog's and symplectic Euler's rule: h <= 4/(γ + √(γ² + 4λ)).
+double leapfrog_step_max(const StepBound& bound);
+
 }  // namespace weft

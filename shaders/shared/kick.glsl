@@ -1,0 +1,34 @@
+// The row of the substep table that a dispatch reads, and the kick it says. The including pass declares
+// READS(vec4, substeps) and includes effects.glsl first.
+
+// The dispatch's row of the table and what else is the same for all particles, read once.
+struct Step {
+  uint row;
+  float inverse_mass, decay, gain, drift, predict_gain, predict_decay;
+  vec3 alpha_wind, gravity_m_s2;
+};
+
+Step step_of(uint row) {
+  vec4 air_row = substeps[row], times = substeps[row + 1u];
+  return Step(row, params.inverse_mass_1_kg, air_row.w, times.x, times.y, times.z, times.w, air_row.xyz,
+              params.gravity_m_s2);
+}
+
+// Of springs, gravity and wind, without the air's drag [m/s²].
+vec3 acceleration(Step s, vec3 F, float w) {
+  precise vec3 acc = F * w;
+  if (gravity) acc = acc + s.gravity_m_s2;
+  if (wind) acc = acc + s.alpha_wind;
+  return acc;
+}
+
+// The exact kick of docs/float-form.md "Kick and drift", with the row's decay and gain or another pair.
+vec3 kicked_by(float decay, float kick_gain, vec3 v0, vec3 acc) {
+  precise vec3 gain = kick_gain * acc;
+  precise vec3 v = v0;
+  if (air) v = decay * v;
+  v = v + gain;
+  return v;
+}
+
+vec3 kicked(Step s, vec3 v0, vec3 acc) { return kicked_by(s.decay, s.gain, v0, acc); }

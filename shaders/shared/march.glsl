@@ -1,0 +1,17 @@
+// The main of the explicit passes: an invocation marches down `rows` particles of a column. The including pass
+// defines move(), which does one particle; it includes force.glsl and kick.glsl first.
+void move(Step s, Column c, inout March m);
+
+void main() {
+  uint i = gl_GlobalInvocationID.x, first = gl_GlobalInvocationID.y * rows;
+  if (i >= params.nx || first >= params.ny) return;
+  Step s = step_of(row_index * params.row_stride);
+  Column c = column_at(i);
+  March m = march_from(c, first);
+  uint last = min(first + rows, c.ny) - 1u;
+  while (true) {
+    move(s, c, m);
+    if (m.j >= last) break;
+    step_down(c, m);
+  }
+}

@@ -1,0 +1,129 @@
+// What the mirrors of the explicit passes share: rows of particles out of the buffers, the force on each, and
+// one particle's acceleration, kick and contact, operation by operation as docs/float-form.md.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "passes/contact.h"
+#include "passes/integrate.h"
+#include "passes/parallel.h"
+
+namespace weft {
+
+template <class T>
+using Vec3 = glm::vec<3, T>;
+
+template <class T>
+Vec3<T> xyz(const glm::vec<4, T>& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Copies rows of particles out of the buffers, component by component, into a ring of three.
+template <class T>
+class RowLoader {
+ public:
+  RowLoader(const HostBuffers<T>& buffers, std::size_t nx) : buffers_(buffers), nx_(nx), scratch_(18 * nx) {}
+
+  RowPointers<T> operator()(std::size_t j) {
+    T* const ring = scratch_.data() + (j % 3) * 6 * nx_;
+    const glm::vec<4, T>* x = buffers_[BufferId::position].data() + j * nx_;
+    const glm::vec<4, T>* v = buffers_[BufferId::velocity].data() + j * nx_;
+    for (std::size_t i = 0; i < nx_; ++i) {
+      ring[i] = x[i].x, ring[nx_ + i] = x[i].y, ring[2 * nx_ + i] = x[i].z;
+      ring[3 * nx_ + i] = v[i].x, ring[4 * nx_ + i] = v[i].y, ring[5 * nx_ + i] = v[i].z;
+    }
+    return {ring, ring + nx_, ring + 2 * nx_, ring + 3 * nx_, ring + 4 * nx_, ring + 5 * nx_};
+  }
+
+ private:
+  const HostBuffers<T>& buffers_;
+  std::size_t nx_;
+  std::vector<T> scratch_;
+};
+
+/// What one particle's acceleration, kick and contact read, in T. The context's constants begin as
+/// integrate_constants().
+template <class T>
+struct Substep {
+  SubstepRow<T> row;
+  Vec3<T> gravity;
+  T inverse_mass;  ///< of an interior particle [1/kg]
+  FloorRow<T> ground{};
+  bool has_air, has_wind, has_gravity, has_floor, has_spheres;
+
+  explicit Substep(const MirrorContext& context)
+      : row(substep_row<T>(context.model, context.row)),
+        gravity(context.model.scene.gravity ? context.model.scene.gravity->acceleration_m_s2
+                                            : glm::dvec3(0.0)),
+        inverse_mass(static_cast<T>(1.0 / context.model.interior_mass_kg)),
+        has_air(on(context, kHasAir)),
+        has_wind(on(context, kHasWind)),
+        has_gravity(on(context, kHasGravity)),
+        has_floor(on(context, kHasFloor)),
+        has_spheres(on(context, kHasSpheres)) {
+    if (has_floor) ground = floor_row<T>(context.model);
+  }
+
+  static bool on(const MirrorContext& context, IntegrateConstant id) {
+    return context.constants[id].value != 0;
+  }
+
+  /// Of springs, gravity and wind, without the air's drag [m/s²]; w: inverse mass [1/kg].
+  Vec3<T> acceleration(const Vec3<T>& force, T w) const { return with_outside(force * w); }
+
+  /// `acceleration` and what acts from outside on every particle alike.
+  Vec3<T> with_outside(Vec3<T> acceleration) const {
+    if (has_gravity) acceleration = acceleration + gravity;
+    if (has_wind) acceleration = acceleration + row.alpha_wind;
+    return acceleration;
+  }
+
+  /// docs/float-form.md "Kick and drift".
+  Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration) const {
+    return has_air ? row.decay * v + row.gain * acceleration : v + row.gain * acceleration;
+  }
+
+  bool has_contact() const { return has_spheres || has_floor; }
+
+  /// docs/float-form.md "Contact", after a drift from x0 to x1.
+  void touch(const Vec3<T>& x0, Vec3<T>& x1, Vec3<T>& v) const {
+    if (has_spheres)
+      for (const SphereRow<T>& sphere : row.spheres) sphere_contact(sphere, x0, x1, v);
+    if (has_floor) floor_contact(ground, x1, v);
+  }
+};
+
+/// Calls move(p, force [N]) for every particle, with the springs' force at `position` and `velocity`.
+/// Several threads call it, each for particles of its own.
+template <class T, class Move>
+void sweep_particles(const MirrorContext& context, const HostBuffers<T>& buffers, Move&& move) {
+  const Grid& grid = context.model.grid;
+  const SweepTables<T> tables(grid, spring_rows<T>(context.model), force_effects(context.constants));
+  const std::size_t nx = grid.nx;
+  parallel_rows(grid.ny, nx, [&](std::uint32_t begin, std::uint32_t end) {
+    ForceSweep<T> sweep(tables);
+    sweep.run(begin, end, RowLoader<T>(buffers, nx), [&](std::size_t j, const std::array<T*, 3>& force) {
+      for (std::size_t i = 0; i < nx; ++i) move(j * nx + i, Vec3<T>(force[0][i], force[1][i], force[2][i]));
+    });
+  });
+}
+
+/// One particle of the explicit passes' mirrors: where it starts, what it weighs.
+template <class T>
+struct Particle {
+  Vec3<T> x, v;
+  T relative, w;  ///< inverse mass, relative to an interior particle's and in 1/kg
+  Particle(const HostBuffers<T>& buffers, const Substep<T>& substep, std::size_t p)
+      : x(xyz(buffers[BufferId::position][p])),
+        v(xyz(buffers[BufferId::velocity][p])),
+        relative(buffers[BufferId::position][p].w),
+        w(relative * substep.inverse_mass) {}
+  bool pinned() const { return w == T(0); }
+};
+
+/// What every pass over the whole cloth declares.
+inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }
+inline std::uint64_t every_spring(const Model& m) { return m.spring_count; }
+inline std::uint64_t no_spring(const Model&) { return 0; }
+
+}  // namespace weft
