@@ -6,7 +6,9 @@
 namespace weft {
 
 std::span<const Pass* const> passes() {
-  static constexpr std::array kPasses{&integrate, &euler_step, &velocity_verlet_step, &verlet_step, &normals};
+  static constexpr std::array kPasses{
+      &integrate,         &euler_step, &velocity_verlet_step, &verlet_step, &trapezoid_predict,
+      &trapezoid_correct, &rk4_first,  &rk4_middle,           &rk4_last,    &normals};
   return kPasses;
 }
 

@@ -43,6 +43,12 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &integrate || &pass == &euler_step) return kIntegrate;
   if (&pass == &velocity_verlet_step) return kVelocityVerlet;
   if (&pass == &verlet_step) return kVerlet;
+  static constexpr std::array kRungeKutta = {
+      BufferId::params,       BufferId::substeps,      BufferId::position,      BufferId::position_next,
+      BufferId::velocity,     BufferId::velocity_next, BufferId::base_position, BufferId::base_velocity,
+      BufferId::sum_position, BufferId::sum_velocity};
+  if (&pass == &trapezoid_predict || &pass == &trapezoid_correct) return kIntegrate;
+  if (&pass == &rk4_first || &pass == &rk4_middle || &pass == &rk4_last) return kRungeKutta;
   if (&pass == &normals) return kNormals;
   return {};
 }

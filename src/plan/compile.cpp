@@ -9,22 +9,6 @@
 namespace weft {
 namespace {
 
-Range whole_cloth(const Model& model) { return {.x = model.grid.nx, .y = model.grid.ny}; }
-Constants no_constants(const Model&) { return {}; }
-std::uint64_t no_springs(const Model&) { return 0; }
-
-/// Stands in the plan of a solver that is not a list of passes: the CPU reference runs its whole frame.
-const Pass cpu_reference_frame{
-    .name = "cpu_reference",
-    .about = "a whole frame on the CPU reference; this solver has no GPU passes",
-    .domain = whole_cloth,
-    .constants = no_constants,
-    .spring_evaluations = no_springs,
-    .mirror_f32 = nullptr,
-    .mirror_f64 = nullptr,
-    .tolerance = {.relative = 0, .absolute = 0},
-};
-
 std::string absent_section(std::string_view section) { return fmt::format("the scene has no {}", section); }
 
 struct Effect {
@@ -115,14 +99,7 @@ Plan compile_plan(const Model& model, const Solver& solver) {
   Plan plan{};
   plan.solver = &solver;
   plan.substeps = substeps_per_frame(model, solver);
-  if (solver.frame_f64 != nullptr || solver.steps.empty())
-    plan.steps = {{.pass = &cpu_reference_frame,
-                   .block = Block::frame_start,
-                   .repeat = 1,
-                   .range = whole_cloth(model),
-                   .constants = {}}};
-  else
-    plan.steps = steps_for(model, solver, plan.substeps);
+  plan.steps = steps_for(model, solver, plan.substeps);
   plan.buffers = buffers_for(model, plan.row_count(), plan.steps);
   plan.left_out = left_out_effects(model, plan.steps);
   return plan;

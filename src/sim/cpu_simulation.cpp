@@ -13,14 +13,12 @@ template <>
 struct Precision<float> {
   static constexpr std::string_view kName = "f32";
   static auto mirror(const Pass& pass) { return pass.mirror_f32; }
-  static auto frame(const Solver& solver) { return solver.frame_f32; }
 };
 
 template <>
 struct Precision<double> {
   static constexpr std::string_view kName = "f64";
   static auto mirror(const Pass& pass) { return pass.mirror_f64; }
-  static auto frame(const Solver& solver) { return solver.frame_f64; }
 };
 
 template <class T>
@@ -48,19 +46,10 @@ class CpuSimulation final : public Simulation {
   }
 
   FrameStats advance(double frame_s, std::uint32_t substeps) override {
-    const Solver& solver = *plan_.solver;
-    const std::vector<KickDrift> rows = solver.schedule(time_s_, frame_s, substeps);
+    const std::vector<KickDrift> rows = plan_.solver->schedule(time_s_, frame_s, substeps);
     FrameStats stats{.substeps = substeps};
     run_block(Block::frame_start, rows, 0, stats);
-    if (const auto frame = Precision<T>::frame(solver)) {
-      State state = read();
-      frame(model_, state, frame_s, substeps);
-      load_state(model_, state, buffers_);
-      stats.spring_evaluations +=
-          std::uint64_t{solver.force_evaluations_per_substep} * substeps * model_.spring_count;
-    } else {
-      for (std::uint32_t k = 0; k < substeps; ++k) run_block(Block::substep, rows, k, stats);
-    }
+    for (std::uint32_t k = 0; k < substeps; ++k) run_block(Block::substep, rows, k, stats);
     time_s_ = frame_end_s(time_s_, frame_s);
     run_block(Block::frame_end, rows, substeps, stats);
     return stats;
@@ -79,10 +68,10 @@ class CpuSimulation final : public Simulation {
   void run_block(Block block, const std::vector<KickDrift>& rows, std::uint32_t substep, FrameStats& stats) {
     static constexpr KickDrift kNone;  // what a step after the last row sees when there is no closing one
     for (const PlanStep& step : plan_.steps) {
-      const auto mirror = Precision<T>::mirror(*step.pass);
-      if (step.block != block || mirror == nullptr) continue;  // no mirror: the solver's frame runs it
+      if (step.block != block) continue;
       const std::uint32_t row = plan_.table_row(step, substep);
-      mirror({model_, step.constants, row < rows.size() ? rows[row] : kNone, row, step.item}, buffers_);
+      Precision<T>::mirror (*step.pass)(
+          {model_, step.constants, row < rows.size() ? rows[row] : kNone, row, step.item}, buffers_);
       if (step.pass->swaps_state) {
         std::swap(buffers_[BufferId::position], buffers_[BufferId::position_next]);
         std::swap(buffers_[BufferId::velocity], buffers_[BufferId::velocity_next]);

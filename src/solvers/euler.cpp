@@ -23,8 +23,6 @@ const Solver euler{
     .steps = kSteps,
     .step_max_s = leapfrog_step_max,  // there is no stable step: leapfrog's, so that the two compare
     .schedule = whole_kick_schedule,
-    .frame_f32 = nullptr,
-    .frame_f64 = nullptr,
     .force_evaluations_per_substep = 1,
 };
 

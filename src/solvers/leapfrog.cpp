@@ -25,8 +25,6 @@ const Solver leapfrog{
     .steps = kSteps,
     .step_max_s = leapfrog_step_max,
     .schedule = leapfrog_schedule,
-    .frame_f32 = nullptr,
-    .frame_f64 = nullptr,
     .force_evaluations_per_substep = 1,
 };
 

@@ -9,6 +9,7 @@ extern const Solver velocity_verlet;   ///< leapfrog that damps with a predicted
 extern const Solver symplectic_euler;  ///< kick–drift without half kicks, first order
 extern const Solver verlet;            ///< positions only, as cloth demos teach it
 extern const Solver euler;             ///< explicit Euler: shown because it fails
+extern const Solver trapezoid;         ///< Heun's method, second order
 extern const Solver rk4;               ///< classical Runge–Kutta: the converged truth
 
 }  // namespace weft

@@ -34,9 +34,6 @@ struct Solver {
   /// The rows of a frame that starts at `start_s` and lasts `frame_s`: rows_per_substep for each of n
   /// substeps, then the closing row where there is one.
   std::vector<KickDrift> (*schedule)(double start_s, double frame_s, std::uint32_t substeps);
-  /// One frame on the reference for solvers that are not a list of passes (Runge–Kutta); else nullptr.
-  void (*frame_f32)(const Model&, State&, double frame_s, std::uint32_t substeps);
-  void (*frame_f64)(const Model&, State&, double frame_s, std::uint32_t substeps);
   std::uint32_t force_evaluations_per_substep;  ///< and one closing evaluation a frame for kick–drift schemes
   std::uint32_t rows_per_substep = 1;
 };

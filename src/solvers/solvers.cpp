@@ -8,7 +8,8 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSolvers{&leapfrog, &velocity_verlet, &symplectic_euler, &verlet, &euler, &rk4};
+constexpr std::array kSolvers{&leapfrog, &velocity_verlet, &symplectic_euler, &verlet, &euler, &trapezoid,
+                              &rk4};
 constexpr double kSubstepsMax = 16777216.0;  // 2²⁴: a frame longer than that never ends
 constexpr double kStepShare = 0.9;           // of the largest stable step
 

@@ -32,6 +32,23 @@ std::vector<KickDrift> whole_kick_schedule(double start_s, double frame_s, std::
   return rows;
 }
 
+std::vector<KickDrift> runge_kutta_schedule(std::span<const StageRow> stages, double start_s, double frame_s,
+                                            std::uint32_t substeps) {
+  const double h = frame_s / substeps;
+  std::vector<KickDrift> rows;
+  rows.reserve(stages.size() * substeps);
+  for (std::uint32_t k = 0; k < substeps; ++k) {
+    const double time_s = start_s + k * h;
+    for (const StageRow& stage : stages)
+      rows.push_back({.kick_s = stage.weight * h,
+                      .drift_s = stage.reach * h,
+                      .kick_time_s = time_s + stage.time * h,
+                      .drift_time_s = time_s,
+                      .plain_air = true});
+  }
+  return rows;
+}
+
 double leapfrog_step_max(const StepBound& bound) { return step_max(bound, 4.0, 4.0); }
 
 }  // namespace weft

@@ -24,8 +24,6 @@ const Solver symplectic_euler{
     .steps = kSteps,
     .step_max_s = leapfrog_step_max,
     .schedule = whole_kick_schedule,
-    .frame_f32 = nullptr,
-    .frame_f64 = nullptr,
     .force_evaluations_per_substep = 1,
 };
 

@@ -34,8 +34,6 @@ const Solver velocity_verlet{
     .steps = kSteps,
     .step_max_s = [](const StepBound& bound) { return step_max(bound, 2.0, 1.0); },
     .schedule = schedule,
-    .frame_f32 = nullptr,
-    .frame_f64 = nullptr,
     .force_evaluations_per_substep = 1,
 };
 

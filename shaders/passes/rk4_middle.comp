@@ -1,0 +1,41 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// The second and the third stage: adds to the weighted sum and goes on from the step's start.
+// Each invocation writes its own particles and reads of the others only what nobody writes: no races.
+// Source: docs/solvers.md "Runge-Kutta stages".
+
+READS (vec4, substeps)
+READS (vec4, position)
+READS (vec4, velocity)
+WRITES(vec4, position_next)
+WRITES(vec4, velocity_next)
+READS (vec4, base_position)
+READS (vec4, base_velocity)
+UPDATES(vec4, sum_position)
+UPDATES(vec4, sum_velocity)
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
+
+#include "../shared/effects.glsl"
+layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
+#include "../shared/force.glsl"
+#include "../shared/contact.glsl"
+#include "../shared/kick.glsl"
+#include "../shared/stage.glsl"
+
+void move(Step s, Column c, inout March m) {
+  Slope k = slope_at(s, c, m);
+  precise vec3 sum_x = sum_position[m.p].xyz + s.gain * k.x;
+  precise vec3 sum_v = sum_velocity[m.p].xyz + s.gain * k.v;
+  precise vec3 x1 = base_position[m.p].xyz + s.drift * k.x;
+  precise vec3 v1 = base_velocity[m.p].xyz + s.drift * k.v;
+  sum_position[m.p] = vec4(sum_x, 0.0);
+  sum_velocity[m.p] = vec4(sum_v, 0.0);
+  position_next[m.p] = vec4(x1, position[m.p].w);
+  velocity_next[m.p] = vec4(v1, 0.0);
+}
+
+#include "../shared/march.glsl"

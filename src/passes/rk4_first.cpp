@@ -1,0 +1,47 @@
+// rk4_first: the first stage: keeps the base, begins the sum. Declaration and CPU mirror.
+#include "passes/passes.h"
+#include "passes/runge_kutta.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  const Substep<T> substep(context);
+  const T weight = substep.row.gain, reach = substep.row.drift;
+  const auto [next_x, next_v, base_x, base_v, sum_x, sum_v] =
+      outputs<T, 6>(buffers, context.model,
+                    {BufferId::position_next, BufferId::velocity_next, BufferId::base_position,
+                     BufferId::base_velocity, BufferId::sum_position, BufferId::sum_velocity});
+  sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
+    const Particle<T> own(buffers, substep, p);
+    Vec3<T> slope_x(T(0)), slope_v(T(0));
+    if (!own.pinned()) {
+      slope_x = own.v;
+      slope_v = stage_acceleration(substep, own, force);
+    }
+    put(*base_x, p, own.x);
+    put(*base_v, p, own.v);
+    put(*sum_x, p, weight * slope_x);
+    put(*sum_v, p, weight * slope_v);
+    put(*next_x, p, own.x + reach * slope_x, own.relative);
+    put(*next_v, p, own.v + reach * slope_v);
+  });
+}
+
+}  // namespace
+
+const Pass rk4_first{
+    .name = "rk4_first",
+    .about = "the first stage of Runge-Kutta: keeps the step's start, begins the sum",
+    .domain = whole_cloth,
+    .constants = integrate_constants,
+    .spring_evaluations = every_spring,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
+    .swaps_state = true,
+    .marches = true,
+};
+
+}  // namespace weft

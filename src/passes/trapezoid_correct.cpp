@@ -1,0 +1,44 @@
+// trapezoid_correct: the step with the mean of both slopes. Declaration and CPU mirror.
+#include "passes/passes.h"
+#include "passes/runge_kutta.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  const Substep<T> substep(context);
+  const T weight = substep.row.gain;
+  const auto [next_x, next_v] =
+      outputs<T, 2>(buffers, context.model, {BufferId::position_next, BufferId::velocity_next});
+  sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
+    const Particle<T> far(buffers, substep, p);
+    const Vec3<T> x0 = xyz((*next_x)[p]), v0 = xyz((*next_v)[p]);  // where the step began
+    Vec3<T> x1 = x0, v1 = v0;
+    if (!far.pinned()) {
+      const Vec3<T> sum = v0 + far.v;
+      x1 = x0 + weight * sum;
+      v1 = T(0.5) * sum + weight * stage_acceleration(substep, far, force);
+      substep.touch(x0, x1, v1);
+    }
+    put(*next_x, p, x1, far.relative);
+    put(*next_v, p, v1);
+  });
+}
+
+}  // namespace
+
+const Pass trapezoid_correct{
+    .name = "trapezoid_correct",
+    .about = "the step with the mean of both slopes, and contact",
+    .domain = whole_cloth,
+    .constants = integrate_constants,
+    .spring_evaluations = every_spring,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
+    .swaps_state = true,
+    .marches = true,
+};
+
+}  // namespace weft
