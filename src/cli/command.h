@@ -27,6 +27,7 @@ extern const Command render;
 extern const Command scenes;
 extern const Command simulate;
 extern const Command solvers;
+extern const Command study;
 extern const Command validate;
 extern const Command view;
 

@@ -6,7 +6,7 @@
 namespace weft::cli {
 
 std::span<const Command* const> commands() {
-  static constexpr std::array kCommands = {&view,  &render,  &simulate, &plan,      &validate,
+  static constexpr std::array kCommands = {&view,  &render,  &simulate, &plan,      &validate, &study,
                                            &bench, &devices, &scenes,   &materials, &solvers};
   return kCommands;
 }

@@ -82,6 +82,18 @@ std::vector<std::string> with_command(int count, char** words) {
   return arguments;
 }
 
+/// The command line as a shell would take it again; the program by its name alone.
+std::string typed(int count, char** words) {
+  std::string line = "weft";
+  for (int w = 1; w < count; ++w) {
+    const std::string word = words[w];
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n\"'$&|;<>()[]{}*?!#~`\\") == std::string::npos;
+    line += plain ? ' ' + word : " '" + word + '\'';
+  }
+  return line;
+}
+
 Exit run_command(CLI::App& app, const Options& options) {
   for (const Command* command : commands()) {
     const CLI::App* chosen = app.get_subcommand(std::string(command->name));
@@ -98,6 +110,7 @@ Exit run(int count, char** words) {
   app.require_subcommand(0, 1);
   app.footer(kFooter);
   Options options;
+  options.command_line = typed(count, words);
   for (const Command* command : commands()) {
     CLI::App* sub = app.add_subcommand(std::string(command->name), std::string(command->about));
     sub->allow_extras();

@@ -84,6 +84,22 @@ void parse_size(const std::string& text, PictureOptions& picture) {
   picture.height = parse_count("--size's height", text.substr(cross + 1), 16, 16384, cure);
 }
 
+/// The parts of "a,b,c".
+/// @throws Error(Exit::usage) when one is empty
+std::vector<std::string> parse_list(std::string_view option, const std::string& text, std::string_view cure) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  if (std::find(parts.begin(), parts.end(), "") != parts.end())
+    throw error(Exit::usage, "{} is {}; it must be a list with commas (for example {})", option,
+                in_quotes(text), cure);
+  return parts;
+}
+
 }  // namespace
 
 void add_shared_options(CLI::App& app, Options& o) {
@@ -137,6 +153,25 @@ void add_picture_options(CLI::App& app, Options& o) {
   app.add_flag("--wireframe", o.picture.wireframe, "draw the triangles' edges");
   add_text(app, "--fps", "pictures a simulated second; default one a frame, at most 60", "N",
            [&o](const std::string& text) { o.picture.fps = parse_count("--fps", text, 1, 240, "--fps 30"); });
+}
+
+void add_study_options(CLI::App& app, Options& o) {
+  app.add_flag("--quick", o.study.quick, "fewer points and runs: at most two minutes");
+  add_text(app, "--resolutions", "particles along the width; default the scene's (with --quick at most 33)",
+           "N,N,...", [&o](const std::string& text) {
+             for (const std::string& part : parse_list("--resolutions", text, "--resolutions 20,40"))
+               o.study.resolutions.push_back(
+                   parse_scene_count("--resolutions", part, "cloth", "resolution", "--resolutions 20,40"));
+           });
+  add_text(app, "--solvers", "of `weft solvers`; default all", "NAME,NAME,...",
+           [&o](const std::string& text) {
+             o.study.solvers = parse_list("--solvers", text, "--solvers leapfrog,rk4");
+           });
+  add_text(app, "--precisions", "of f32, f32k and f64; default all", "NAME,NAME,...",
+           [&o](const std::string& text) {
+             o.study.precisions = parse_list("--precisions", text, "--precisions f32,f64");
+             for (const std::string& name : o.study.precisions) parse_word("--precisions", name, kPrecisions);
+           });
 }
 
 const std::string& only_scene(const Options& o) {

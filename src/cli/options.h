@@ -20,6 +20,13 @@ struct PictureOptions {
   std::optional<std::uint32_t> fps;  ///< absent: one picture a frame, 60 at most
 };
 
+/// What `study` sweeps; empty lists: all there is.
+struct StudyOptions {
+  bool quick = false;
+  std::vector<std::uint32_t> resolutions;
+  std::vector<std::string> solvers, precisions;
+};
+
 /// One command line. Scene keys (`--set`, `--resolution`, …) stay TOML assignments for the scene reader.
 struct Options {
   std::vector<std::string> scenes;
@@ -37,7 +44,9 @@ struct Options {
   bool validation = false, force_staging = false, quiet = false, verbose = false, check = false;
   std::optional<std::filesystem::path> out;
   PictureOptions picture;
-  std::string perturb;  ///< PASS.CONSTANT, `validate` only
+  StudyOptions study;
+  std::string command_line;  ///< as typed, for reports
+  std::string perturb;       ///< PASS.CONSTANT, `validate` only
 
   bool on_cpu() const { return device == "cpu"; }
   /// `--time`, else 5 s.
@@ -58,6 +67,9 @@ void add_out(CLI::App&, Options&, const std::string& about);
 
 /// Adds the options of `render`.
 void add_picture_options(CLI::App&, Options&);
+
+/// Adds the options of `study`.
+void add_study_options(CLI::App&, Options&);
 
 /// The one scene a command needs.
 /// @throws Error(Exit::usage) when none was given, or a second one

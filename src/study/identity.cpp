@@ -1,0 +1,63 @@
+// The canonical words of a scene come from the one table of parameters, so that a new key is never forgotten.
+#include "study/identity.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "scene/parameters.h"
+
+namespace weft::study {
+namespace {
+
+struct ExactText {
+  std::string operator()(double v) const { return fmt::format("{:.17g}", v == 0.0 ? 0.0 : v); }
+  std::string operator()(const glm::dvec2& v) const { return (*this)(v.x) + "," + (*this)(v.y); }
+  std::string operator()(const glm::dvec3& v) const {
+    return (*this)(v.x) + "," + (*this)(v.y) + "," + (*this)(v.z);
+  }
+  std::string operator()(const std::string& v) const { return v; }
+};
+
+/// Whether the motion depends on a key, whatever solver runs.
+bool moves_the_cloth(const Parameter& row) {
+  if (row.section == "solver") return row.key == "frame";
+  return !row.section.empty() && row.section != "expect" && row.key != "preset";
+}
+
+}  // namespace
+
+std::string canonical_scene(const Scene& scene) {
+  std::string text;
+  for (const Parameter& row : parameters()) {
+    if (!moves_the_cloth(row) || !has_section(scene, row.section)) continue;
+    for (std::size_t item = 0; item < item_count(scene, row.section); ++item)
+      text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key,
+                          std::visit(ExactText{}, row.get(scene, item)));
+  }
+  return text;
+}
+
+std::uint64_t hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::string name_of(std::string_view bytes) { return fmt::format("{:016x}", hash_of(bytes)); }
+
+std::filesystem::path cache_folder() {
+  const char* xdg = std::getenv("XDG_CACHE_HOME");
+  if (xdg != nullptr && *xdg == '/') return std::filesystem::path(xdg) / "weft";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".cache" / "weft";
+  return {};
+}
+
+bool make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  return std::filesystem::is_directory(folder, failure);
+}
+
+}  // namespace weft::study
