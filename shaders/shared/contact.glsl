@@ -1,5 +1,5 @@
 // Contact of one particle with the spheres and the floor, swept, with Coulomb friction: docs/float-form.md,
-// "Contact". The including pass declares READS(vec4, substeps) and includes force.glsl (dot3) first.
+// "Contact". The including pass declares READS(vec4, substeps) and includes dot.glsl (dot3) first.
 
 // Takes away the inward normal velocity relative to the collider, and friction from the rest.
 vec3 respond(vec3 v, vec3 collider_velocity, vec3 n, float friction) {

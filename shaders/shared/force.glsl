@@ -2,10 +2,7 @@
 // marching down a column of particles so that what one row loaded and computed serves the rows below.
 // The including pass declares READS(vec4, position) and READS(vec4, velocity) first.
 
-float dot3(vec3 a, vec3 b) {
-  precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
-  return sum;
-}
+#include "dot.glsl"
 
 // One end of a pair.
 struct End {

@@ -39,5 +39,13 @@ struct Params {
 WEFT_CONST uint kRowHeadVec4s = 2u;
 WEFT_CONST uint kRowSphereVec4s = 3u;
 
+// The rows of `constraints`, which XPBD alone has: x = rest [m], y = compliance 1/k [m/N], z = damping time
+// c/k [s]. Structural, flex and bending rows come in pairs: inside, then on a boundary line.
+WEFT_CONST uint kConstraintStructural = 0u;
+WEFT_CONST uint kConstraintShear = 2u;
+WEFT_CONST uint kConstraintFlex = 3u;
+WEFT_CONST uint kConstraintBend = 5u;
+WEFT_CONST uint kConstraintRows = 7u;
+
 WEFT_SHARED_END
 #endif

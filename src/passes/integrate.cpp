@@ -17,16 +17,21 @@ Constants integrate_constants(const Model& m) {
   const bool pins = std::ranges::any_of(m.relative_inverse_mass, [](double w) { return w == 0.0; });
   const bool damping =
       std::ranges::any_of(m.springs, [](const SpringKind& kind) { return kind.damping_n_s_m > 0.0; });
-  return {{"shear", positive(m.springs[kShearDown].stiffness_n_m)},
-          {"flex", positive(m.springs[kFlexI].stiffness_n_m)},
-          {"bending", positive(m.bend_kappa_n_m)},
-          {"damping", damping},
-          {"air", air},
-          {"wind", wind},
-          {"gravity", gravity},
-          {"floor", scene.floor.has_value()},
-          {"spheres", !scene.spheres.empty()},
-          {"pins", pins}};
+  const std::array<std::uint32_t, kIntegrateConstantCount> values{
+      positive(m.springs[kShearDown].stiffness_n_m),
+      positive(m.springs[kFlexI].stiffness_n_m),
+      positive(m.bend_kappa_n_m),
+      damping,
+      air,
+      wind,
+      gravity,
+      scene.floor.has_value(),
+      !scene.spheres.empty(),
+      pins};
+  Constants constants;
+  for (std::size_t id = 0; id < values.size(); ++id)
+    constants.push_back({kIntegrateConstantNames[id], values[id]});
+  return constants;
 }
 
 namespace {

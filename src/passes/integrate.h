@@ -1,6 +1,9 @@
 // The integration pass's specialization constants by name: what each id means, for the mirror and for solvers
 // that share its force.
 #pragma once
+#include <array>
+#include <string_view>
+
 #include "passes/force_sweep.h"
 #include "passes/pass.h"
 
@@ -20,6 +23,9 @@ enum IntegrateConstant {
   kHasPins,
   kIntegrateConstantCount
 };
+
+inline constexpr std::array<std::string_view, kIntegrateConstantCount> kIntegrateConstantNames{
+    "shear", "flex", "bending", "damping", "air", "wind", "gravity", "floor", "spheres", "pins"};
 
 /// Which effects the model's scene calls for; one entry an IntegrateConstant.
 Constants integrate_constants(const Model& model);

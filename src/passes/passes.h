@@ -15,6 +15,10 @@ extern const Pass trapezoid_correct;     ///< the step with the mean of both slo
 extern const Pass rk4_first;             ///< Runge-Kutta's first stage
 extern const Pass rk4_middle;            ///< its second and third
 extern const Pass rk4_last;              ///< its last, and the step
+extern const Pass xpbd_predict;          ///< XPBD: where each particle would go by itself
+extern const Pass xpbd_spring;           ///< XPBD: the springs of one colour
+extern const Pass xpbd_bend;             ///< XPBD: the bending triples of one colour
+extern const Pass xpbd_finish;           ///< XPBD: velocities and contact
 extern const Pass normals;               ///< vertex normals from the adjacent triangles
 
 /// All of them; `validate` walks this list.

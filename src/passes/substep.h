@@ -41,8 +41,8 @@ class RowLoader {
   std::vector<T> scratch_;
 };
 
-/// What one particle's acceleration, kick and contact read, in T. The context's constants begin as
-/// integrate_constants().
+/// What one particle's acceleration, kick and contact read, in T. An effect that the context's
+/// constants do not name is absent.
 template <class T>
 struct Substep {
   SubstepRow<T> row;
@@ -65,7 +65,10 @@ struct Substep {
   }
 
   static bool on(const MirrorContext& context, IntegrateConstant id) {
-    return context.constants[id].value != 0;
+    const std::string_view name = kIntegrateConstantNames[id];
+    for (const Constant& constant : context.constants)
+      if (constant.name == name) return constant.value != 0;
+    return false;  // the pass does not have this effect
   }
 
   /// Of springs, gravity and wind, without the air's drag [m/s²]; w: inverse mass [1/kg].

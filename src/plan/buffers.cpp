@@ -19,15 +19,18 @@ std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows) {
   const std::uint64_t element = row_of(id).element_bytes;
   switch (id) {
     case BufferId::params: return element;
+    case BufferId::constraints: return element * shared::kConstraintRows;
     case BufferId::substeps: return element * substep_row_capacity(rows) * substep_row_stride(model);
     default:  // one element a particle
       return element * model.grid.count();
   }
 }
 
-std::uint32_t slot_count(BufferId id) {
-  return id == BufferId::params || id == BufferId::substeps ? kFrameSlots : 1;
+bool host_written(BufferId id) {
+  return id == BufferId::params || id == BufferId::substeps || id == BufferId::constraints;
 }
+
+std::uint32_t slot_count(BufferId id) { return host_written(id) ? kFrameSlots : 1; }
 
 std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kIntegrate = {BufferId::params,   BufferId::substeps,
@@ -49,6 +52,18 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
       BufferId::sum_position, BufferId::sum_velocity};
   if (&pass == &trapezoid_predict || &pass == &trapezoid_correct) return kIntegrate;
   if (&pass == &rk4_first || &pass == &rk4_middle || &pass == &rk4_last) return kRungeKutta;
+  static constexpr std::array kXpbdPredict = {BufferId::params, BufferId::substeps, BufferId::position,
+                                              BufferId::position_next, BufferId::velocity};
+  static constexpr std::array kXpbdSpring = {BufferId::params, BufferId::substeps, BufferId::position,
+                                             BufferId::position_next, BufferId::constraints};
+  static constexpr std::array kXpbdBend = {BufferId::params, BufferId::substeps, BufferId::position,
+                                           BufferId::constraints};
+  static constexpr std::array kXpbdFinish = {BufferId::params, BufferId::substeps, BufferId::position,
+                                             BufferId::position_next, BufferId::velocity_next};
+  if (&pass == &xpbd_predict) return kXpbdPredict;
+  if (&pass == &xpbd_spring) return kXpbdSpring;
+  if (&pass == &xpbd_bend) return kXpbdBend;
+  if (&pass == &xpbd_finish) return kXpbdFinish;
   if (&pass == &normals) return kNormals;
   return {};
 }

@@ -22,6 +22,9 @@ std::uint32_t substep_row_stride(const Model& model);
 /// Bytes of one copy of a buffer for this model and number of rows a frame.
 std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows);
 
+/// Whether the host writes the buffer, from the model and the schedule: mirrors compute what is in it.
+bool host_written(BufferId id);
+
 /// Copies there are of a buffer: kFrameSlots of what the host writes each frame, one of all else.
 std::uint32_t slot_count(BufferId id);
 

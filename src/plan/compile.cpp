@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "passes/integrate.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -42,17 +43,13 @@ const Effect kEffects[] = {
     {"pins", "pins", [](const Scene&) { return absent_section("[[pins]]"); }},
 };
 
-std::vector<LeftOut> left_out_effects(const Model& model, const std::vector<PlanStep>& steps) {
+std::vector<LeftOut> left_out_effects(const Model& model) {
+  const Constants effects = integrate_constants(model);
   std::vector<LeftOut> left_out;
   for (const Effect& effect : kEffects) {
-    bool declared = false, on = false;
-    for (const PlanStep& step : steps)
-      for (const Constant& constant : step.constants)
-        if (constant.name == effect.constant) {
-          declared = true;
-          on = on || constant.value != 0;
-        }
-    if (declared && !on) left_out.push_back({effect.name, effect.reason(model.scene)});
+    for (const Constant& constant : effects)
+      if (constant.name == effect.constant && constant.value == 0)
+        left_out.push_back({effect.name, effect.reason(model.scene)});
   }
   left_out.push_back({"self-collision", absent_section("[self_collision]")});
   return left_out;
@@ -101,7 +98,7 @@ Plan compile_plan(const Model& model, const Solver& solver) {
   plan.substeps = substeps_per_frame(model, solver);
   plan.steps = steps_for(model, solver, plan.substeps);
   plan.buffers = buffers_for(model, plan.row_count(), plan.steps);
-  plan.left_out = left_out_effects(model, plan.steps);
+  plan.left_out = left_out_effects(model);
   return plan;
 }
 

@@ -1,6 +1,7 @@
 // The plan interpreted by the passes' CPU mirrors, in float or double: the reference that the GPU is held to.
 #include "core/error.h"
 #include "passes/tables.h"
+#include "plan/buffers.h"
 #include "sim/simulation.h"
 
 namespace weft {
@@ -27,7 +28,7 @@ class CpuSimulation final : public Simulation {
   CpuSimulation(const Model& model, const Solver& solver)
       : model_(model), plan_(compile_plan(model_, solver)) {
     for (const PlanBuffer& buffer : plan_.buffers)
-      if (held_here(buffer.id)) buffers_[buffer.id].resize(model_.grid.count());
+      if (!host_written(buffer.id)) buffers_[buffer.id].resize(model_.grid.count());
     write(start_state(model_));
   }
 
@@ -62,9 +63,6 @@ class CpuSimulation final : public Simulation {
   }
 
  private:
-  /// Parameters and substep rows have no place here: mirrors compute them from the model.
-  static bool held_here(BufferId id) { return id != BufferId::params && id != BufferId::substeps; }
-
   void run_block(Block block, const std::vector<KickDrift>& rows, std::uint32_t substep, FrameStats& stats) {
     static constexpr KickDrift kNone;  // what a step after the last row sees when there is no closing one
     for (const PlanStep& step : plan_.steps) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "passes/tables.h"
+#include "passes/xpbd.h"
 #include "sim/frame_commands.h"
 #include "sim/perturb.h"
 #include "sim/submit_pacer.h"
@@ -139,6 +140,11 @@ void VulkanSimulation::write_params() {
   perturbation_.apply(model_, params);
   for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
     buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
+  if (!buffers_.has(BufferId::constraints)) return;
+  ConstraintRows<float> constraints = constraint_rows<float>(model_);
+  perturbation_.apply(constraints);
+  for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
+    buffers_.at(BufferId::constraints, slot).write(std::as_bytes(std::span(constraints)));
 }
 
 void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "passes/tables.h"
+#include "passes/xpbd.h"
 
 namespace weft {
 namespace {
@@ -63,6 +64,10 @@ std::map<BufferId, PassRunner::Bytes> PassRunner::contents(std::size_t step, con
       fill_substep_rows(model_, rows, table);
       perturbation_.apply(table, substep_row_stride(model_));
       std::memcpy(bytes.data(), table.data(), std::min(bytes.size(), table.size() * sizeof table[0]));
+    } else if (id == BufferId::constraints) {
+      ConstraintRows<float> constraints = constraint_rows<float>(model_);
+      perturbation_.apply(constraints);
+      std::memcpy(bytes.data(), constraints.data(), bytes.size());
     } else if (const Use use = use_of(step, id); use.writes && !use.reads) {
       fill_poison(bytes);
     } else if (!input[id].empty()) {

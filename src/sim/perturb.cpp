@@ -60,6 +60,11 @@ void Perturbation::apply(const Model& model, shared::Params& params) const {
   if (constant_ == "floor") params.floor_height_m += length_m;
 }
 
+void Perturbation::apply(ConstraintRows<float>& constraints) const {
+  if (constant_ == "damping")
+    for (glm::vec4& row : constraints) row.z *= kFactor;
+}
+
 void Perturbation::apply(std::span<glm::vec4> rows, std::uint32_t stride) const {
   for (std::size_t row = 0; row + stride <= rows.size(); row += stride) {
     if (constant_ == "air") rows[row].w *= kFactor;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "passes/xpbd.h"
 #include "plan/plan.h"
 #include "shared/params.h"
 
@@ -23,6 +24,7 @@ class Perturbation {
   bool active() const { return !constant_.empty(); }
   void apply(Plan& plan) const;
   void apply(const Model& model, shared::Params& params) const;
+  void apply(ConstraintRows<float>& constraints) const;
   /// @param rows  one substep table, `stride` vec4s a row
   void apply(std::span<glm::vec4> rows, std::uint32_t stride) const;
 

@@ -11,5 +11,6 @@ extern const Solver verlet;            ///< positions only, as cloth demos teach
 extern const Solver euler;             ///< explicit Euler: shown because it fails
 extern const Solver trapezoid;         ///< Heun's method, second order
 extern const Solver rk4;               ///< classical Runge–Kutta: the converged truth
+extern const Solver xpbd;              ///< position-based in small steps: fast, stable, too soft
 
 }  // namespace weft

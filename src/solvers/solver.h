@@ -36,6 +36,8 @@ struct Solver {
   std::vector<KickDrift> (*schedule)(double start_s, double frame_s, std::uint32_t substeps);
   std::uint32_t force_evaluations_per_substep;  ///< and one closing evaluation a frame for kick–drift schemes
   std::uint32_t rows_per_substep = 1;
+  std::uint32_t substeps_default =
+      0;  ///< the automatic number where stability does not say; 0: step_max_s does
 };
 
 /// Every solver, in the order they are listed to people.
@@ -44,7 +46,7 @@ std::span<const Solver* const> solvers();
 /// @throws Error(Exit::usage) listing the valid names.
 const Solver& find_solver(std::string_view name);
 
-/// n = max(1, ⌈frame/(0.9·h_max)⌉). With scene.solver.substeps set, that number.
+/// n = max(1, ⌈frame/(0.9·h_max)⌉), or the solver's default. With scene.solver.substeps set, that number.
 /// @throws Error(Exit::usage) when more than 2²⁴ substeps would be needed.
 std::uint32_t substeps_per_frame(const Model& model, const Solver& solver);
 

@@ -8,8 +8,8 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSolvers{&leapfrog, &velocity_verlet, &symplectic_euler, &verlet, &euler, &trapezoid,
-                              &rk4};
+constexpr std::array kSolvers{
+    &leapfrog, &velocity_verlet, &symplectic_euler, &verlet, &euler, &trapezoid, &rk4, &xpbd};
 constexpr double kSubstepsMax = 16777216.0;  // 2²⁴: a frame longer than that never ends
 constexpr double kStepShare = 0.9;           // of the largest stable step
 
@@ -29,6 +29,7 @@ const Solver& find_solver(std::string_view name) {
 std::uint32_t substeps_per_frame(const Model& model, const Solver& solver) {
   const SolverSection& section = model.scene.solver;
   if (section.substeps > 0) return section.substeps;
+  if (solver.substeps_default > 0) return solver.substeps_default;
   const double step_s = kStepShare * solver.step_max_s(model.bound);
   const double needed = std::ceil(section.frame_s / step_s);
   if (!(needed <= kSubstepsMax))

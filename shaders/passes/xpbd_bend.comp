@@ -1,0 +1,47 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// Straightens the bending triples of one colour: one Gauss-Seidel sweep, compliance = 1/kappa.
+// Triples of a colour share no particle, so plain writes neither race nor depend on order.
+// Source: Macklin et al. 2016, XPBD, eq. 18, lambda starting at zero; docs/solvers.md "xpbd".
+
+READS (vec4, substeps)
+READS (vec4, constraints)
+UPDATES(vec4, position)
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint row_index, item; };
+
+void main() {
+  bool along_i = item < 3u;
+  uint colour = item % 3u, nx = params.nx, ny = params.ny;
+  uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
+  if (along_i)
+    i = 3u * i + colour;
+  else
+    j = 3u * j + colour;
+  uint next = along_i ? 1u : nx;
+  if (i >= nx || j >= ny || (along_i ? i + 2u >= nx : j + 2u >= ny)) return;
+  bool boundary = along_i ? (j == 0u || j + 1u == ny) : (i == 0u || i + 1u == nx);
+  float compliance = constraints[kConstraintBend + (boundary ? 1u : 0u)].y;
+
+  uint pa = j * nx + i, pb = pa + next, pc = pb + next;
+  vec4 a = position[pa], b = position[pb], c = position[pc];
+  precise float wa = a.w * params.inverse_mass_1_kg;
+  precise float wb = b.w * params.inverse_mass_1_kg;
+  precise float wc = c.w * params.inverse_mass_1_kg;
+  precise float w = (wa + 4.0 * wb) + wc;
+  if (w == 0.0) return;
+  precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
+  precise float stiff = compliance * (rate * rate);
+  precise vec3 push = (a.xyz - 2.0 * b.xyz) + c.xyz;
+  push = push / (w + stiff);
+  precise float wb2 = 2.0 * wb;
+  precise vec3 xa = a.xyz - wa * push;
+  precise vec3 xb = b.xyz + wb2 * push;
+  precise vec3 xc = c.xyz - wc * push;
+  position[pa] = vec4(xa, a.w);
+  position[pb] = vec4(xb, b.w);
+  position[pc] = vec4(xc, c.w);
+}

@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// Velocities from what the particles have moved, then contact. position_next holds where the substep began.
+// Each invocation reads and writes its own particle only: no races.
+// Source: Macklin et al. 2019, Small Steps in Physics Simulation, algorithm 1; docs/solvers.md "xpbd".
+
+READS (vec4, substeps)
+READS (vec4, position)
+UPDATES(vec4, position_next)
+UPDATES(vec4, velocity_next)
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint row_index; };
+
+layout(constant_id = 0) const bool floor_contact = true;
+layout(constant_id = 1) const bool spheres = true;
+#include "../shared/dot.glsl"
+#include "../shared/contact.glsl"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
+  if (i >= params.nx || j >= params.ny) return;
+  uint p = j * params.nx + i, row = row_index * params.row_stride;
+  vec4 solved = position[p];
+  vec3 x0 = position_next[p].xyz;
+  precise vec3 x1 = solved.xyz;
+  precise vec3 v = velocity_next[p].xyz;
+  if (solved.w != 0.0) {
+    v = x1 - x0;
+    v = v / substeps[row + 1u].y;
+    if (spheres || floor_contact) contact(row, x0, x1, v);
+  }
+  position_next[p] = vec4(x1, solved.w);
+  velocity_next[p] = vec4(v, 0.0);
+}

@@ -1,0 +1,81 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// Pulls the springs of one colour towards their rest length: one Gauss-Seidel sweep, compliance = 1/k.
+// Springs of a colour share no particle, so plain writes neither race nor depend on order.
+// Source: Macklin et al. 2016, XPBD, eq. 18 and 26, lambda starting at zero; docs/solvers.md "xpbd".
+
+READS (vec4, substeps)
+READS (vec4, constraints)
+READS (vec4, position_next)  // where the substep began
+UPDATES(vec4, position)
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint row_index, item; };
+
+layout(constant_id = 0) const bool damping = true;
+#include "../shared/dot.glsl"
+
+const uint kStructuralI = 0u, kStructuralJ = 1u, kShearUp = 3u, kFlexI = 4u, kFlexJ = 5u;
+
+// The n-th place of a colour where two of every four belong to it: 0 1 4 5 ..., 2 3 6 7 ...
+uint pair_of_two(uint n, uint colour) { return (n / 2u) * 4u + colour * 2u + n % 2u; }
+
+void pull(uint pa, uint pb, vec3 k) {
+  vec4 a = position[pa], b = position[pb];
+  precise float wa = a.w * params.inverse_mass_1_kg;
+  precise float wb = b.w * params.inverse_mass_1_kg;
+  precise float w = wa + wb;
+  if (w == 0.0) return;
+  precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
+  precise float stiff = k.y * (rate * rate);
+  precise vec3 d = b.xyz - a.xyz;
+  precise float l = sqrt(max(dot3(d, d), kTinyLengthSquared));
+  precise float inverse = 1.0 / l;
+  precise vec3 n = d * inverse;
+  precise float error = l - k.x;
+  precise float weight = w;
+  if (damping) {
+    precise float gamma = k.z * rate;
+    precise vec3 moved = (b.xyz - position_next[pb].xyz) - (a.xyz - position_next[pa].xyz);
+    precise float along = gamma * dot3(n, moved);
+    error = error + along;
+    weight = (1.0 + gamma) * w;
+  }
+  precise float size = error / (weight + stiff);
+  precise vec3 push = size * n;
+  precise vec3 xa = a.xyz + wa * push;
+  precise vec3 xb = b.xyz - wb * push;
+  position[pa] = vec4(xa, a.w);
+  position[pb] = vec4(xb, b.w);
+}
+
+void main() {
+  uint kind = item / 2u, colour = item % 2u, nx = params.nx, ny = params.ny;
+  uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
+  uvec2 reach = uvec2(1u, 1u);
+  if (kind == kStructuralI) reach = uvec2(1u, 0u);
+  if (kind == kStructuralJ) reach = uvec2(0u, 1u);
+  if (kind == kFlexI) reach = uvec2(2u, 0u);
+  if (kind == kFlexJ) reach = uvec2(0u, 2u);
+  if (kind == kStructuralJ)
+    j = 2u * j + colour;
+  else if (kind == kFlexI)
+    i = pair_of_two(i, colour);
+  else if (kind == kFlexJ)
+    j = pair_of_two(j, colour);
+  else
+    i = 2u * i + colour;
+  if (i + reach.x >= nx || j + reach.y >= ny) return;
+
+  uint row = kConstraintShear;
+  bool along_i = reach.y == 0u, along_j = reach.x == 0u;
+  if (along_i || along_j) {
+    bool boundary = along_i ? (j == 0u || j + 1u == ny) : (i == 0u || i + 1u == nx);
+    row = (kind == kFlexI || kind == kFlexJ ? kConstraintFlex : kConstraintStructural) + (boundary ? 1u : 0u);
+  }
+  uint own = j * nx + i;
+  bool rising = kind == kShearUp;
+  pull(rising ? own + 1u : own, rising ? own + nx : own + reach.y * nx + reach.x, constraints[row].xyz);
+}

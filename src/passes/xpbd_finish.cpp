@@ -1,0 +1,49 @@
+// xpbd_finish: velocities from what the particles have moved, then contact. Declaration and CPU mirror.
+// Source: Macklin et al. 2019, Small Steps, algorithm 1, line 14.
+#include "passes/passes.h"
+#include "passes/xpbd.h"
+
+namespace weft {
+namespace {
+
+Constants constants(const Model& m) {
+  const Constants all = integrate_constants(m);
+  return {all[kHasFloor], all[kHasSpheres]};
+}
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  const Substep<T> substep(context);
+  const Grid& grid = context.model.grid;
+  const auto& solved = std::as_const(buffers)[BufferId::position];
+  auto& position_next = buffers[BufferId::position_next];  // where the substep began
+  auto& velocity_next = buffers[BufferId::velocity_next];
+  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
+      const Vec3<T> x0 = xyz(position_next[p]);
+      Vec3<T> x1 = xyz(solved[p]), v = xyz(velocity_next[p]);
+      if (solved[p].w != T(0)) {
+        v = (x1 - x0) / substep.row.drift;
+        substep.touch(x0, x1, v);
+      }
+      position_next[p] = glm::vec<4, T>(x1, solved[p].w);
+      velocity_next[p] = glm::vec<4, T>(v, T(0));
+    }
+  });
+}
+
+}  // namespace
+
+const Pass xpbd_finish{
+    .name = "xpbd_finish",
+    .about = "velocities from what the particles have moved, and contact",
+    .domain = whole_cloth,
+    .constants = constants,
+    .spring_evaluations = no_spring,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
+    .swaps_state = true,
+};
+
+}  // namespace weft

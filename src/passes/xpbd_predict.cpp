@@ -1,0 +1,47 @@
+// xpbd_predict: moves every particle as if it were free, by gravity and air alone; the springs follow as
+// constraints. Declaration and CPU mirror. Source: Macklin et al. 2019, Small Steps, algorithm 1, lines 5-7.
+#include "passes/passes.h"
+#include "passes/xpbd.h"
+
+namespace weft {
+namespace {
+
+Constants constants(const Model& m) {
+  const Constants all = integrate_constants(m);
+  return {all[kHasAir], all[kHasWind], all[kHasGravity]};
+}
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  const Substep<T> substep(context);
+  const Grid& grid = context.model.grid;
+  auto& position_next = buffers[BufferId::position_next];
+  position_next.resize(grid.count());
+  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
+      const Particle<T> own(buffers, substep, p);
+      Vec3<T> x1 = own.x;
+      if (!own.pinned()) {
+        const Vec3<T> v = substep.kicked(own.v, substep.with_outside(Vec3<T>(T(0))));
+        x1 = own.x + substep.row.drift * v;
+      }
+      position_next[p] = glm::vec<4, T>(x1, own.relative);
+    }
+  });
+}
+
+}  // namespace
+
+const Pass xpbd_predict{
+    .name = "xpbd_predict",
+    .about = "gravity and air: where each particle would go by itself",
+    .domain = whole_cloth,
+    .constants = constants,
+    .spring_evaluations = no_spring,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .tolerance = {.relative = 1e-6, .absolute = 0},
+    .swaps_state = true,
+};
+
+}  // namespace weft

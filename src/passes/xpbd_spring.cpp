@@ -1,0 +1,150 @@
+// xpbd_spring: one Gauss–Seidel sweep over the springs of one colour. Declaration and CPU mirror.
+// Source: Macklin et al. 2016, XPBD, eq. 18 with the damping of eq. 26; λ starts at zero in every substep,
+// since there is one iteration (Macklin et al. 2019, Small Steps, sect. 4).
+#include "model/springs.h"
+#include "passes/passes.h"
+#include "passes/xpbd.h"
+
+namespace weft {
+
+ConstraintRows<double> constraint_rows_exact(const Model& model) {
+  ConstraintRows<double> rows{};
+  const auto spring = [&](SpringName name, double weight) {
+    const SpringKind& kind = model.springs[name];
+    if (kind.stiffness_n_m <= 0.0) return glm::dvec4(0.0);
+    return glm::dvec4(kind.rest_m, 1.0 / (weight * kind.stiffness_n_m),
+                      kind.damping_n_s_m / kind.stiffness_n_m, 0.0);
+  };
+  rows[shared::kConstraintStructural] = spring(kStructuralI, 1.0);
+  rows[shared::kConstraintStructural + 1] = spring(kStructuralI, 0.5);
+  rows[shared::kConstraintShear] = spring(kShearDown, 1.0);
+  rows[shared::kConstraintFlex] = spring(kFlexI, 1.0);
+  rows[shared::kConstraintFlex + 1] = spring(kFlexI, 0.5);
+  if (model.bend_kappa_n_m > 0.0) {
+    rows[shared::kConstraintBend].y = 1.0 / model.bend_kappa_n_m;
+    rows[shared::kConstraintBend + 1].y = 2.0 / model.bend_kappa_n_m;
+  }
+  return rows;
+}
+
+namespace {
+
+Constants constants(const Model& m) { return {integrate_constants(m)[kHasDamping]}; }
+
+/// The row of a spring's coefficients that begins at (i, j).
+std::size_t row_of(const Grid& grid, SpringName kind, std::uint32_t i, std::uint32_t j) {
+  const bool on_j_edge = j == 0 || j + 1 == grid.ny, on_i_edge = i == 0 || i + 1 == grid.nx;
+  switch (kind) {
+    case kStructuralI: return shared::kConstraintStructural + (on_j_edge ? 1 : 0);
+    case kStructuralJ: return shared::kConstraintStructural + (on_i_edge ? 1 : 0);
+    case kFlexI: return shared::kConstraintFlex + (on_j_edge ? 1 : 0);
+    case kFlexJ: return shared::kConstraintFlex + (on_i_edge ? 1 : 0);
+    default: return shared::kConstraintShear;
+  }
+}
+
+/// Calls visit(a, b, row) for each spring of the colour that begins in rows [begin, end). The rising diagonal
+/// is named by its left particle's column, as f_T in docs/float-form.md.
+template <class Visit>
+void for_each_spring_of(const Grid& grid, const SpringColour& springs, std::uint32_t begin, std::uint32_t end,
+                        Visit&& visit) {
+  static constexpr std::uint32_t kReachI[] = {1, 0, 1, 1, 2, 0}, kReachJ[] = {0, 1, 1, 1, 0, 2};
+  const std::uint32_t di = kReachI[springs.kind], dj = kReachJ[springs.kind];
+  for (std::uint32_t j = begin; j < end && j + dj < grid.ny; ++j) {
+    for (std::uint32_t i = 0; i + di < grid.nx; ++i) {
+      if (!springs.has(i, j)) continue;
+      const bool rising = springs.kind == kShearUp;
+      const std::uint32_t a = rising ? grid.index(i + 1, j) : grid.index(i, j);
+      const std::uint32_t b = rising ? grid.index(i, j + 1) : grid.index(i + di, j + dj);
+      visit(a, b, row_of(grid, springs.kind, i, j));
+    }
+  }
+}
+
+/// Two colours of a kind share the lanes of the longer one; lanes beyond the last spring return at once.
+Range item_domain(const Model& m, std::uint32_t item) {
+  const SpringColour springs = SpringColour::of(item);
+  if (m.springs[springs.kind].stiffness_n_m <= 0.0) return {};
+  const std::uint32_t nx = m.grid.nx, ny = m.grid.ny;
+  const auto halves = [](std::uint32_t count) { return (count + 1) / 2; };
+  const auto pairs_of_two = [](std::uint32_t count) { return (count + 3) / 4 * 2; };
+  switch (springs.kind) {
+    case kStructuralI: return {.x = halves(nx), .y = ny};
+    case kStructuralJ: return {.x = nx, .y = halves(ny)};
+    case kFlexI: return {.x = pairs_of_two(nx), .y = ny};
+    case kFlexJ: return {.x = nx, .y = pairs_of_two(ny)};
+    default: return {.x = halves(nx), .y = ny};
+  }
+}
+
+std::uint64_t item_spring_evaluations(const Model& m, std::uint32_t item) {
+  std::uint64_t count = 0;
+  for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.ny,
+                     [&](std::uint32_t a, std::uint32_t b, std::size_t) {
+                       const bool free = m.relative_inverse_mass[a] + m.relative_inverse_mass[b] > 0.0;
+                       count += free ? 1 : 0;
+                     });
+  return count;
+}
+
+/// docs/solvers.md "xpbd", one spring.
+template <class T, bool kDamped>
+void pull(const ConstraintRows<T>& rows, std::size_t row, T step_s, T inverse_mass,
+          const std::vector<glm::vec<4, T>>& start, glm::vec<4, T>& a, glm::vec<4, T>& b, std::size_t pa,
+          std::size_t pb) {
+  const T wa = a.w * inverse_mass, wb = b.w * inverse_mass, w = wa + wb;
+  if (w == T(0)) return;
+  const T rate = T(1) / step_s, stiff = rows[row].y * (rate * rate);
+  const Vec3<T> xa = xyz(a), xb = xyz(b), d = xb - xa;
+  const T l = std::sqrt(std::max(dot3(d, d), static_cast<T>(1e-24)));
+  const Vec3<T> n = d * (T(1) / l);
+  T error = l - rows[row].x, weight = w;
+  if constexpr (kDamped) {
+    const T gamma = rows[row].z * rate;
+    const Vec3<T> moved = (xb - xyz(start[pb])) - (xa - xyz(start[pa]));
+    error = error + gamma * dot3(n, moved);
+    weight = (T(1) + gamma) * w;
+  }
+  const Vec3<T> push = (error / (weight + stiff)) * n;
+  a = glm::vec<4, T>(xa + wa * push, a.w);
+  b = glm::vec<4, T>(xb - wb * push, b.w);
+}
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  const Model& model = context.model;
+  const ConstraintRows<T> rows = constraint_rows<T>(model);
+  auto& position = buffers[BufferId::position];
+  const auto& start = buffers[BufferId::position_next];
+  const T step_s = static_cast<T>(context.row.drift_s);
+  const T inverse_mass = static_cast<T>(1.0 / model.interior_mass_kg);
+  const bool damped = context.constants[0].value != 0;
+  parallel_rows(model.grid.ny, model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+    for_each_spring_of(model.grid, SpringColour::of(context.item), begin, end,
+                       [&](std::uint32_t a, std::uint32_t b, std::size_t row) {
+                         auto& xa = position[a];
+                         auto& xb = position[b];
+                         if (damped)
+                           pull<T, true>(rows, row, step_s, inverse_mass, start, xa, xb, a, b);
+                         else
+                           pull<T, false>(rows, row, step_s, inverse_mass, start, xa, xb, a, b);
+                       });
+  });
+}
+
+}  // namespace
+
+const Pass xpbd_spring{
+    .name = "xpbd_spring",
+    .about = "pulls the springs of one colour towards their rest length",
+    .domain = whole_cloth,
+    .constants = constants,
+    .spring_evaluations = no_spring,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .tolerance = {.relative = 1e-6, .absolute = 0},
+    .item_domain = item_domain,
+    .item_spring_evaluations = item_spring_evaluations,
+};
+
+}  // namespace weft
