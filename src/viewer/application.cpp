@@ -20,9 +20,11 @@
 namespace weft {
 namespace {
 
-constexpr double kSimulationBudget_s = 0.028;  // between two pictures; a chunk is at most about 50 ms
-constexpr double kRest_s = 0.1;                // between looks at a window that shows nothing new
-constexpr double kAwake_s = 0.5;               // after the last event
+// Time for the simulation between two pictures: as much as drawing takes, within these. One chunk more may
+// come on top, of at most about 50 ms.
+constexpr double kBudgetLeast_s = 0.028, kBudgetMost_s = 0.045;
+constexpr double kRest_s = 0.1;   // between looks at a window that shows nothing new
+constexpr double kAwake_s = 0.5;  // after the last event
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -132,7 +134,8 @@ void Application::run() {
     if (pictures_ > 0) longest_gap_ms_ = std::max(longest_gap_ms_, 1e3 * elapsed_s);
     place_scene();
     handle_input(elapsed_s);
-    attempt([&] { running_.advance(elapsed_s, kSimulationBudget_s); });
+    const double budget_s = std::clamp(1e-3 * painter_.draw_ms(), kBudgetLeast_s, kBudgetMost_s);
+    attempt([&] { running_.advance(elapsed_s, budget_s); });
     if (!running_.paused()) running_.measure();
     gui_.begin_frame();
     const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);

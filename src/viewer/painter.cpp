@@ -49,7 +49,7 @@ constexpr VkImageSubresourceLayers kColor{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 
 constexpr double kScales[] = {0.5, 0.65, 0.8, 1.0};
 constexpr double kSlow_ms = 24.0, kQuick_ms = 14.0;  // drawing beyond and below which the scale follows
-constexpr std::uint64_t kSettle_pictures = 20;
+constexpr std::uint64_t kSettle_pictures = 8;
 
 }  // namespace
 
@@ -122,7 +122,7 @@ std::optional<Painted> Painter::paint(const RunningScene& running, WindowSize fr
     device_.wait(frame.submitted);
     const double ms = frame.timer->between_ms(0, 1);
     constexpr std::uint64_t kCompiling = 6;  // the first pictures wait for pipelines
-    if (ms > 0.0 && painted_ > kCompiling) draw_ms_ = draw_ms_ > 0.0 ? 0.8 * draw_ms_ + 0.2 * ms : ms;
+    if (ms > 0.0 && painted_ > kCompiling) draw_ms_ = draw_ms_ > 0.0 ? 0.7 * draw_ms_ + 0.3 * ms : ms;
     adapt_scale();
   }
   const std::optional<SwapchainImage> image = swapchain_.acquire(frame.acquired, framebuffer);
@@ -234,10 +234,10 @@ void Painter::adapt_scale() {
   if (!automatic_ || draw_ms_ <= 0.0 || painted_ < settled_until_) return;
   const auto* now = std::ranges::find_if(kScales, [&](double s) { return s >= scale_ - 1e-9; });
   const auto* chosen = now;
-  if (draw_ms_ > kSlow_ms && now != std::begin(kScales)) chosen = now - 1;
+  const auto costs = [&](const double* scale) { return draw_ms_ * *scale * *scale / (*now * *now); };
+  while (chosen != std::begin(kScales) && costs(chosen) > kSlow_ms) --chosen;
   if (draw_ms_ < kQuick_ms && now + 1 != std::end(kScales)) {
-    const double growth = now[1] / now[0];
-    if (draw_ms_ * growth * growth < kSlow_ms) chosen = now + 1;
+    if (costs(now + 1) < kSlow_ms) chosen = now + 1;
   }
   settled_until_ = painted_ + kSettle_pictures;
   if (chosen == now) return;
