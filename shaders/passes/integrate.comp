@@ -5,38 +5,4 @@
 // One substep in one pass over memory: the springs' force by gather, kick, drift, contact.
 // Each invocation writes its own particles of the *_next buffers and reads only the others: no races.
 // Source: docs/physics.md "Time"; every operation's order is docs/float-form.md.
-
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
-
-layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
-
-#include "../shared/effects.glsl"
-layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
-#include "../shared/force.glsl"
-#include "../shared/contact.glsl"
-
-#include "../shared/kick.glsl"
-
-void move(Step s, Column c, inout March m) {
-  float relative = position[m.p].w;
-  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
-  precise vec3 F = spring_force(c, m);
-  precise float w = relative * s.inverse_mass;
-  precise vec3 x1 = x0;
-  precise vec3 v = v0;
-  if (!pins || w != 0.0) {
-    v = kicked(s, v0, acceleration(s, F, w));
-    precise vec3 travelled = s.drift * v;
-    x1 = x0 + travelled;
-    if ((spheres || floor_contact) && s.drift > 0.0) contact(s.row, x0, x1, v);
-  }
-  position_next[m.p] = vec4(x1, relative);
-  velocity_next[m.p] = vec4(v, 0.0);
-}
-
-#include "../shared/march.glsl"
+#include "../shared/integrate.glsl"

@@ -6,42 +6,4 @@
 // that damping sees; half_velocity is what the particle moves with.
 // Each invocation writes its own particles and reads of the others only what nobody writes: no races.
 // Source: docs/solvers.md "velocity-verlet".
-
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
-UPDATES(vec4, half_velocity)
-
-layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
-
-#include "../shared/effects.glsl"
-layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
-#include "../shared/force.glsl"
-#include "../shared/contact.glsl"
-#include "../shared/kick.glsl"
-
-void move(Step s, Column c, inout March m) {
-  float relative = position[m.p].w;
-  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
-  precise vec3 F = spring_force(c, m);
-  precise float w = relative * s.inverse_mass;
-  precise vec3 x1 = x0;
-  precise vec3 v = v0;
-  precise vec3 predicted = v0;
-  if (!pins || w != 0.0) {
-    precise vec3 acc = acceleration(s, F, w);
-    v = kicked(s, row_index == 0u ? v0 : half_velocity[m.p].xyz, acc);
-    precise vec3 travelled = s.drift * v;
-    x1 = x0 + travelled;
-    if ((spheres || floor_contact) && s.drift > 0.0) contact(s.row, x0, x1, v);
-    predicted = kicked_by(s.predict_decay, s.predict_gain, v, acc);
-  }
-  position_next[m.p] = vec4(x1, relative);
-  velocity_next[m.p] = vec4(predicted, 0.0);
-  half_velocity[m.p] = vec4(v, 0.0);
-}
-
-#include "../shared/march.glsl"
+#include "../shared/velocity_verlet_step.glsl"

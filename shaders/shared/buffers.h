@@ -19,6 +19,6 @@
   ROW(sum_position, 11, vec4, "Runge-Kutta: m, the weighted stages so far; w unused")            \
   ROW(sum_velocity, 12, vec4, "Runge-Kutta: m/s, the weighted stages so far; w unused")          \
   ROW(constraints, 13, vec4, "XPBD: rest [m], compliance [m/N], damping time [s] of each kind")  \
-  ROW(compensation, 14, vec4, "f32k: m, what position has lost to rounding; w unused")
+  ROW(compensation, 14, vec4, "f32k: m, what position has too much; w unused")       
 
 #endif

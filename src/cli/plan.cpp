@@ -21,7 +21,7 @@ std::string steps_as_csv(const Plan& plan) {
 
 Exit run(const Options& o) {
   const Setup setup = set_up(o, only_scene(o));
-  const Plan compiled = compile_plan(setup.model, *setup.solver);
+  const Plan compiled = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
   std::string text;
   switch (o.format) {
     case Format::human: text = describe(compiled, setup.model); break;

@@ -15,11 +15,6 @@ constexpr const char* kCpuCure = "run it with --device cpu";
 
 void check_precision(const Options& o, const Scene& scene, const Solver& solver) {
   const std::string& precision = scene.solver.precision;
-  if (precision == "f32k")
-    throw error(Exit::usage,
-                "{}: precision is f32k; compensated sums are not part of this version; use f32, or "
-                "f64 with --device cpu",
-                scene.source);
   if (o.on_cpu()) return;
   if (precision == "f64")
     throw error(Exit::usage, "{}: precision is f64; on a Vulkan device this version computes in f32; {}",

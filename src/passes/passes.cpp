@@ -6,10 +6,22 @@
 namespace weft {
 
 std::span<const Pass* const> passes() {
-  static constexpr std::array kPasses{
-      &integrate,         &euler_step, &velocity_verlet_step, &verlet_step, &trapezoid_predict,
-      &trapezoid_correct, &rk4_first,  &rk4_middle,           &rk4_last,    &xpbd_predict,
-      &xpbd_spring,       &xpbd_bend,  &xpbd_finish,          &normals};
+  static constexpr std::array kPasses{&integrate,
+                                      &euler_step,
+                                      &velocity_verlet_step,
+                                      &verlet_step,
+                                      &trapezoid_predict,
+                                      &trapezoid_correct,
+                                      &rk4_first,
+                                      &rk4_middle,
+                                      &rk4_last,
+                                      &xpbd_predict,
+                                      &xpbd_spring,
+                                      &xpbd_bend,
+                                      &xpbd_finish,
+                                      &integrate_compensated,
+                                      &velocity_verlet_compensated,
+                                      &normals};
   return kPasses;
 }
 

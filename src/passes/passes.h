@@ -6,20 +6,22 @@
 
 namespace weft {
 
-extern const Pass integrate;             ///< forces, kick, drift, contact: one substep
-extern const Pass euler_step;            ///< the same with the drift first
-extern const Pass velocity_verlet_step;  ///< integrate with a predicted velocity for the damping
-extern const Pass verlet_step;           ///< two positions in place of position and velocity
-extern const Pass trapezoid_predict;     ///< an Euler step to the trapezoid's far end
-extern const Pass trapezoid_correct;     ///< the step with the mean of both slopes
-extern const Pass rk4_first;             ///< Runge-Kutta's first stage
-extern const Pass rk4_middle;            ///< its second and third
-extern const Pass rk4_last;              ///< its last, and the step
-extern const Pass xpbd_predict;          ///< XPBD: where each particle would go by itself
-extern const Pass xpbd_spring;           ///< XPBD: the springs of one colour
-extern const Pass xpbd_bend;             ///< XPBD: the bending triples of one colour
-extern const Pass xpbd_finish;           ///< XPBD: velocities and contact
-extern const Pass normals;               ///< vertex normals from the adjacent triangles
+extern const Pass integrate;                    ///< forces, kick, drift, contact: one substep
+extern const Pass euler_step;                   ///< the same with the drift first
+extern const Pass velocity_verlet_step;         ///< integrate with a predicted velocity for the damping
+extern const Pass verlet_step;                  ///< two positions in place of position and velocity
+extern const Pass trapezoid_predict;            ///< an Euler step to the trapezoid's far end
+extern const Pass trapezoid_correct;            ///< the step with the mean of both slopes
+extern const Pass rk4_first;                    ///< Runge-Kutta's first stage
+extern const Pass rk4_middle;                   ///< its second and third
+extern const Pass rk4_last;                     ///< its last, and the step
+extern const Pass xpbd_predict;                 ///< XPBD: where each particle would go by itself
+extern const Pass xpbd_spring;                  ///< XPBD: the springs of one colour
+extern const Pass xpbd_bend;                    ///< XPBD: the bending triples of one colour
+extern const Pass xpbd_finish;                  ///< XPBD: velocities and contact
+extern const Pass integrate_compensated;        ///< f32k
+extern const Pass velocity_verlet_compensated;  ///< f32k
+extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
 /// All of them; `validate` walks this list.
 std::span<const Pass* const> passes();

@@ -124,6 +124,16 @@ struct Particle {
   bool pinned() const { return w == T(0); }
 };
 
+/// The place after moving by `travelled`, with Kahan's compensation: `lost` holds what x has too much.
+/// docs/solvers.md "f32k".
+template <class T>
+Vec3<T> drifted(const Vec3<T>& x0, const Vec3<T>& travelled, glm::vec<4, T>& lost) {
+  const Vec3<T> wanted = travelled - xyz(lost);
+  const Vec3<T> x1 = x0 + wanted;
+  lost = glm::vec<4, T>((x1 - x0) - wanted, T(0));
+  return x1;
+}
+
 /// What every pass over the whole cloth declares.
 inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }
 inline std::uint64_t every_spring(const Model& m) { return m.spring_count; }

@@ -56,6 +56,11 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
     position[p] = glm::vec<4, T>(glm::vec<3, T>(state.position[p]), T(model.relative_inverse_mass[p]));
     velocity[p] = glm::vec<4, T>(glm::vec<3, T>(state.velocity[p]), T(0));
   }
+  auto& excess = buffers[BufferId::compensation];
+  for (std::size_t p = 0; p < excess.size(); ++p) {
+    const glm::dvec3 held(position[p].x, position[p].y, position[p].z);
+    excess[p] = glm::vec<4, T>(glm::vec<3, T>(held - state.position[p]), T(0));
+  }
 }
 
 template <class T>
@@ -67,6 +72,9 @@ State store_state(const HostBuffers<T>& buffers, double time_s) {
   state.position.reserve(position.size());
   state.velocity.reserve(velocity.size());
   for (const auto& x : position) state.position.emplace_back(x.x, x.y, x.z);
+  const auto& excess = buffers[BufferId::compensation];
+  for (std::size_t p = 0; p < excess.size(); ++p)
+    state.position[p] -= glm::dvec3(excess[p].x, excess[p].y, excess[p].z);
   for (const auto& v : velocity) state.velocity.emplace_back(v.x, v.y, v.z);
   return state;
 }

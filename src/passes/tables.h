@@ -17,10 +17,12 @@ shared::Params make_params(const Model& model);
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows, std::vector<shared::vec4>& table);
 
 /// Rounds a state into position (w = relative inverse mass) and velocity (w = 0), both resized to the grid.
+/// Where `buffers` has room for the compensation, it takes what rounding adds to the positions.
 template <class T>
 void load_state(const Model& model, const State& state, HostBuffers<T>& buffers);
 
-/// The state in position and velocity; exact, since double holds every float.
+/// The state in position, velocity and, where there is one, the compensation; exact, since double holds every
+/// float.
 template <class T>
 State store_state(const HostBuffers<T>& buffers, double time_s);
 

@@ -9,7 +9,7 @@ namespace {
 /// docs/solvers.md "velocity-verlet": `velocity` holds the prediction at the position's time, which damping
 /// sees; half_velocity what the particle moves with, half a step behind. The frame's first row starts both
 /// from the state.
-template <class T>
+template <class T, bool kCompensated>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   auto& position_next = buffers[BufferId::position_next];
@@ -18,14 +18,21 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   for (auto* out : {&position_next, &velocity_next, &half_velocity}) out->resize(context.model.grid.count());
   const bool starts = context.row_index == 0;
   const T decay = substep.row.predict_decay, gain = substep.row.predict_gain;
+  auto& lost = buffers[BufferId::compensation];
+  if (kCompensated) lost.resize(context.model.grid.count(), glm::vec<4, T>(T(0)));
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v = own.v, predicted = own.v;
     if (!own.pinned()) {
       const Vec3<T> acceleration = substep.acceleration(force, own.w);
       v = substep.kicked(starts ? own.v : xyz(half_velocity[p]), acceleration);
-      x1 = own.x + substep.row.drift * v;
+      if constexpr (kCompensated)
+        x1 = drifted(own.x, substep.row.drift * v, lost[p]);
+      else
+        x1 = own.x + substep.row.drift * v;
+      const Vec3<T> free = x1;
       if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
+      if (kCompensated && x1 != free) lost[p] = glm::vec<4, T>(T(0));
       predicted = substep.has_air ? decay * v + gain * acceleration : v + gain * acceleration;
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
@@ -42,8 +49,24 @@ const Pass velocity_verlet_step{
     .domain = whole_cloth,
     .constants = integrate_constants,
     .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
+    .mirror_f32 = mirror<float, false>,
+    .mirror_f64 = mirror<double, false>,
+    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
+    .swaps_state = true,
+    .marches = true,
+    .compensated = &velocity_verlet_compensated,
+};
+
+const Pass velocity_verlet_compensated{
+    .name = "velocity_verlet_compensated",
+    .about =
+        "springs, damping, bending, air, gravity, contact: one step of velocity Verlet, positions summed "
+        "with compensation",
+    .domain = whole_cloth,
+    .constants = integrate_constants,
+    .spring_evaluations = every_spring,
+    .mirror_f32 = mirror<float, true>,
+    .mirror_f64 = mirror<double, true>,
     .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,

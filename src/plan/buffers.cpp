@@ -46,6 +46,14 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &integrate || &pass == &euler_step) return kIntegrate;
   if (&pass == &velocity_verlet_step) return kVelocityVerlet;
   if (&pass == &verlet_step) return kVerlet;
+  static constexpr std::array kIntegrateCompensated = {
+      BufferId::params,   BufferId::substeps,      BufferId::position,    BufferId::position_next,
+      BufferId::velocity, BufferId::velocity_next, BufferId::compensation};
+  static constexpr std::array kVelocityVerletCompensated = {
+      BufferId::params,   BufferId::substeps,      BufferId::position,      BufferId::position_next,
+      BufferId::velocity, BufferId::velocity_next, BufferId::half_velocity, BufferId::compensation};
+  if (&pass == &integrate_compensated) return kIntegrateCompensated;
+  if (&pass == &velocity_verlet_compensated) return kVelocityVerletCompensated;
   static constexpr std::array kRungeKutta = {
       BufferId::params,       BufferId::substeps,      BufferId::position,      BufferId::position_next,
       BufferId::velocity,     BufferId::velocity_next, BufferId::base_position, BufferId::base_velocity,

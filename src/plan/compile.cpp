@@ -1,5 +1,6 @@
 // Model × Solver → Plan: which steps, over what, with which constants; the buffers they need; what was
 // left out and why.
+#include <algorithm>
 #include <set>
 
 #include "core/error.h"
@@ -67,12 +68,13 @@ std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t rows,
   return buffers;
 }
 
-std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::uint32_t substeps) {
+std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::uint32_t substeps,
+                                bool compensated) {
   std::vector<PlanStep> steps;
   for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
     for (const SolverStep& step : solver.steps) {
       if (step.block != block) continue;
-      const Pass& pass = *step.pass;
+      const Pass& pass = compensated && step.pass->compensated ? *step.pass->compensated : *step.pass;
       const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
       if (range.empty()) continue;
       const std::uint64_t springs = pass.item_spring_evaluations
@@ -84,9 +86,29 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
   return steps;
 }
 
+void require_precision(const Model& model, const Solver& solver, std::string_view precision) {
+  if (precision != "f32" && precision != "f32k" && precision != "f64")
+    throw error(Exit::usage, "{}: solver.precision is \"{}\"; it must be one of: f32, f32k, f64",
+                model.scene.source, precision);
+  if (precision != "f32k" || has_compensated(solver)) return;
+  std::string able;
+  for (const Solver* other : solvers())
+    if (has_compensated(*other)) able += (able.empty() ? "" : ", ") + std::string(other->name);
+  throw error(Exit::usage,
+              "{}: solver.precision is f32k, and {} has no compensated form; use f32 or f64, or one of the "
+              "solvers {}",
+              model.scene.source, solver.name, able);
+}
+
 }  // namespace
 
-Plan compile_plan(const Model& model, const Solver& solver) {
+bool has_compensated(const Solver& solver) {
+  return std::ranges::any_of(solver.steps,
+                             [](const SolverStep& s) { return s.pass->compensated != nullptr; });
+}
+
+Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
+  require_precision(model, solver, precision);
   if (model.scene.self_collision)
     throw error(
         Exit::usage,
@@ -95,8 +117,9 @@ Plan compile_plan(const Model& model, const Solver& solver) {
         model.scene.source, model.scene.self_collision->thickness_m);
   Plan plan{};
   plan.solver = &solver;
+  plan.precision = precision;
   plan.substeps = substeps_per_frame(model, solver);
-  plan.steps = steps_for(model, solver, plan.substeps);
+  plan.steps = steps_for(model, solver, plan.substeps, precision == "f32k");
   plan.buffers = buffers_for(model, plan.row_count(), plan.steps);
   plan.left_out = left_out_effects(model);
   return plan;

@@ -35,6 +35,7 @@ struct LeftOut {
 
 struct Plan {
   const Solver* solver;
+  std::string precision;
   std::uint32_t substeps;           ///< a full frame's
   std::vector<PlanStep> steps;      ///< frame_start, substep, frame_end, in execution order
   std::vector<PlanBuffer> buffers;  ///< ascending binding
@@ -50,7 +51,12 @@ struct Plan {
   }
 };
 
-Plan compile_plan(const Model& model, const Solver& solver);
+/// Whether the solver runs in f32k: a pass of it has a form with compensated positions.
+bool has_compensated(const Solver& solver);
+
+/// @param precision  "f32", "f32k" or "f64"; f32k takes each pass's compensated form
+/// @throws Error(Exit::usage) listing the precisions, or the solvers that have a compensated form
+Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision = "f32");
 
 std::string describe(const Plan&, const Model&);  ///< for people
 std::string to_json(const Plan&, const Model&);   ///< {"steps","buffers","left_out","bytes"}

@@ -12,21 +12,19 @@ struct Precision;
 
 template <>
 struct Precision<float> {
-  static constexpr std::string_view kName = "f32";
   static auto mirror(const Pass& pass) { return pass.mirror_f32; }
 };
 
 template <>
 struct Precision<double> {
-  static constexpr std::string_view kName = "f64";
   static auto mirror(const Pass& pass) { return pass.mirror_f64; }
 };
 
 template <class T>
 class CpuSimulation final : public Simulation {
  public:
-  CpuSimulation(const Model& model, const Solver& solver)
-      : model_(model), plan_(compile_plan(model_, solver)) {
+  CpuSimulation(const Model& model, const Solver& solver, const std::string& precision)
+      : model_(model), plan_(compile_plan(model_, solver, precision)) {
     for (const PlanBuffer& buffer : plan_.buffers)
       if (!host_written(buffer.id)) buffers_[buffer.id].resize(model_.grid.count());
     write(start_state(model_));
@@ -34,7 +32,7 @@ class CpuSimulation final : public Simulation {
 
   const Model& model() const override { return model_; }
   const Plan& plan() const override { return plan_; }
-  std::string device_name() const override { return fmt::format("CPU reference ({})", Precision<T>::kName); }
+  std::string device_name() const override { return fmt::format("CPU reference ({})", plan_.precision); }
   double time_s() const override { return time_s_; }
   State read() override { return store_state(buffers_, time_s_); }
 
@@ -89,10 +87,8 @@ class CpuSimulation final : public Simulation {
 
 std::unique_ptr<Simulation> make_cpu_simulation(const Model& model, const Solver& solver,
                                                 const std::string& precision) {
-  if (precision == "f32") return std::make_unique<CpuSimulation<float>>(model, solver);
-  if (precision == "f64") return std::make_unique<CpuSimulation<double>>(model, solver);
-  throw error(Exit::usage, "solver.precision is \"{}\"; on the CPU reference it must be one of: f32, f64",
-              precision);
+  if (precision == "f64") return std::make_unique<CpuSimulation<double>>(model, solver, precision);
+  return std::make_unique<CpuSimulation<float>>(model, solver, precision);
 }
 
 }  // namespace weft

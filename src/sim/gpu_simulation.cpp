@@ -49,7 +49,7 @@ class VulkanSimulation final : public GpuSimulation {
                    const GpuSimulationOptions& options)
       : device_(device),
         model_(model),
-        plan_(compile_plan(model_, require_gpu(solver))),
+        plan_(compile_plan(model_, require_gpu(solver), model_.scene.solver.precision)),
         perturbation_(options.perturb, plan_),
         program_plan_(perturbed(plan_, perturbation_)),
         buffers_(device, model_, plan_),
@@ -109,6 +109,12 @@ class VulkanSimulation final : public GpuSimulation {
   static Plan perturbed(Plan plan, const Perturbation& perturbation) {
     perturbation.apply(plan);
     return plan;
+  }
+  /// What holds the canonical state.
+  std::vector<BufferId> state_buffers() const {
+    std::vector<BufferId> ids{BufferId::position, BufferId::velocity};
+    if (buffers_.has(BufferId::compensation)) ids.push_back(BufferId::compensation);
+    return ids;
   }
   void write_params();
   void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
@@ -244,7 +250,7 @@ void VulkanSimulation::end_frame() {
 State VulkanSimulation::read() {
   wait();
   HostBuffers<float> host;
-  for (const BufferId id : {BufferId::position, BufferId::velocity}) {
+  for (const BufferId id : state_buffers()) {
     host[id].resize(model_.grid.count());
     buffers_.at(at_parity(id, parity_)).read(std::as_writable_bytes(std::span(host[id])));
   }
@@ -255,8 +261,9 @@ void VulkanSimulation::write(const State& state) {
   wait();
   frame_.order.reset();
   HostBuffers<float> host;
+  for (const BufferId id : state_buffers()) host[id].resize(model_.grid.count());
   load_state(model_, state, host);
-  for (const BufferId id : {BufferId::position, BufferId::velocity})
+  for (const BufferId id : state_buffers())
     buffers_.at(at_parity(id, parity_)).write(std::as_bytes(std::span(host[id])));
   time_s_ = state.time_s;
   refresh_normals();
@@ -276,7 +283,7 @@ void VulkanSimulation::refresh_normals() {
 }
 
 bool VulkanSimulation::adopt(const Model& model) {
-  Plan next = compile_plan(model, *plan_.solver);
+  Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
   const bool new_masses = model.relative_inverse_mass != model_.relative_inverse_mass;
   State state;

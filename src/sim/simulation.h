@@ -30,7 +30,8 @@ class Simulation {
   virtual std::uint64_t bytes_allocated() const = 0;
 };
 
-/// The CPU reference in float ("f32") or double ("f64").
+/// The CPU reference in float ("f32", and "f32k" with compensated positions) or double ("f64").
+/// @throws Error(Exit::usage) for another precision, or one that the solver does not have
 std::unique_ptr<Simulation> make_cpu_simulation(const Model&, const Solver&, const std::string& precision);
 
 /// Runs `time_s` seconds: whole frames of scene.solver.frame_s, then one short frame (docs/cli.md).

@@ -39,7 +39,7 @@ class Validator {
         model_(model),
         solver_(solver),
         options_(options),
-        plan_(compile_plan(model, solver)) {
+        plan_(compile_plan(model, solver, model.scene.solver.precision)) {
     if (const char* name = std::getenv("WEFT_PERTURB"); options_.perturb.empty() && name != nullptr)
       options_.perturb = name;
     report_.device = device.info().name;
@@ -94,6 +94,8 @@ void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
             .rows = solver_.schedule(probe.state.time_s, model_.scene.solver.frame_s, n),
             .host = {}};
   walk.rows.resize(plan_.row_count());  // a closing row of zeros where the schedule has none
+  for (const PlanBuffer& buffer : plan_.buffers)
+    if (buffer.id == BufferId::compensation) walk.host[buffer.id].resize(model_.grid.count());
   load_state(model_, probe.state, walk.host);
   const auto check_block = [&](Block block, std::uint32_t substep) {
     for (std::size_t step = 0; step < plan_.steps.size(); ++step)
@@ -149,7 +151,7 @@ void Validator::compare_states(const std::string& name, const State& got, const 
 
 void Validator::check_lockstep() {
   const auto device = GpuSimulation::create(device_, model_, solver_, {.perturb = options_.perturb});
-  const auto reference = make_cpu_simulation(model_, solver_, "f32");
+  const auto reference = make_cpu_simulation(model_, solver_, plan_.precision);
   const std::uint32_t n = plan_.substeps;
   const double frame_s = model_.scene.solver.frame_s;
   for (std::uint32_t left = options_.lockstep_substeps; left > 0;) {

@@ -6,6 +6,7 @@
 #include "gpu_fixture.h"
 #include "scenes.h"
 #include "sim/gpu_program.h"
+#include "plan/plan.h"
 #include "sim/validate.h"
 
 namespace weft::test {
@@ -33,6 +34,19 @@ TEST_F(SolverValidateTest, every_solver_equals_its_mirrors) {
                             << row.state << ", " << row.buffer << ": " << row.verdict << ", max "
                             << row.max_abs << ", " << row.max_ulp << " ulp";
     }
+  }
+}
+
+// The compensated passes too, where a solver has them.
+TEST_F(SolverValidateTest, every_compensated_form_equals_its_mirrors) {
+  const Model model = full_model("[solver]\nprecision = \"f32k\"\n");
+  for (const Solver* solver : solvers()) {
+    if (!has_compensated(*solver)) continue;
+    const ValidationReport report =
+        validate(device(), model, *solver, {.lockstep_substeps = 20, .lockstep_frames = 2});
+    for (const ValidationRow& row : report.rows)
+      EXPECT_TRUE(row.ok) << solver->name << ": " << row.check << ", " << row.state << ", " << row.buffer
+                          << ": " << row.verdict << ", " << row.max_ulp << " ulp";
   }
 }
 

@@ -1,0 +1,42 @@
+// The body of integrate.comp and of its compensated form (f32k), which define COMPENSATED or not.
+
+READS (vec4, substeps)
+READS (vec4, position)
+READS (vec4, velocity)
+WRITES(vec4, position_next)
+WRITES(vec4, velocity_next)
+#ifdef COMPENSATED
+UPDATES(vec4, compensation)
+#endif
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
+
+#include "effects.glsl"
+layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
+#include "force.glsl"
+#include "contact.glsl"
+#include "kick.glsl"
+#include "drift.glsl"
+
+void move(Step s, Column c, inout March m) {
+  float relative = position[m.p].w;
+  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
+  precise vec3 F = spring_force(c, m);
+  precise float w = relative * s.inverse_mass;
+  precise vec3 x1 = x0;
+  precise vec3 v = v0;
+  if (!pins || w != 0.0) {
+    v = kicked(s, v0, acceleration(s, F, w));
+    x1 = drifted(m.p, x0, s.drift, v);
+    if ((spheres || floor_contact) && s.drift > 0.0) {
+      vec3 free = x1;
+      contact(s.row, x0, x1, v);
+      if (x1 != free) forget_lost(m.p);
+    }
+  }
+  position_next[m.p] = vec4(x1, relative);
+  velocity_next[m.p] = vec4(v, 0.0);
+}
+
+#include "march.glsl"
