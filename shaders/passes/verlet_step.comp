@@ -33,7 +33,10 @@ void move(Step s, Column c, inout March m) {
   if (!pins || w != 0.0) {
     precise vec3 travelled = s.drift * v0;
     if (row_index != 0u) travelled = x0 - position_previous[m.p].xyz;
-    if (air) travelled = s.decay * travelled;
+    if (air) {
+      precise vec3 lost = s.loss * travelled;
+      travelled = travelled - lost;
+    }
     precise float gain = s.gain * s.drift;
     precise vec3 pushed = gain * acceleration(s, F, w);
     x1 = x0 + travelled;

@@ -4,7 +4,7 @@
 // The dispatch's row of the table and what else is the same for all particles, read once.
 struct Step {
   uint row;
-  float inverse_mass, decay, gain, drift, predict_gain, predict_decay;
+  float inverse_mass, loss, gain, drift, predict_gain, predict_loss;
   vec3 alpha_wind, gravity_m_s2;
 };
 
@@ -22,13 +22,15 @@ vec3 acceleration(Step s, vec3 F, float w) {
   return acc;
 }
 
-// The exact kick of docs/float-form.md "Kick and drift", with the row's decay and gain or another pair.
-vec3 kicked_by(float decay, float kick_gain, vec3 v0, vec3 acc) {
-  precise vec3 gain = kick_gain * acc;
-  precise vec3 v = v0;
-  if (air) v = decay * v;
-  v = v + gain;
+// The exact kick of docs/float-form.md "Kick and drift", with the row's loss and gain or another pair.
+vec3 kicked_by(float loss, float gain, vec3 v0, vec3 acc) {
+  precise vec3 change = gain * acc;
+  if (air) {
+    precise vec3 lost = loss * v0;
+    change = change - lost;
+  }
+  precise vec3 v = v0 + change;
   return v;
 }
 
-vec3 kicked(Step s, vec3 v0, vec3 acc) { return kicked_by(s.decay, s.gain, v0, acc); }
+vec3 kicked(Step s, vec3 v0, vec3 acc) { return kicked_by(s.loss, s.gain, v0, acc); }

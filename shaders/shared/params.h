@@ -28,10 +28,10 @@ struct Params {
 
 // The substep table is an array of vec4; row r starts at r·row_stride and belongs to dispatch r of the
 // frame: kick, drift, contact. All of it is computed on the host in double and rounded once.
-//   [0] xyz = alpha·wind(t) at the kick's time [m/s²]    w = e, the kick's exact decay
+//   [0] xyz = alpha·wind(t) at the kick's time [m/s²]    w = 1 - e, what the kick's air takes
 //       (Runge-Kutta: w = alpha itself [1/s])
 //   [1] x = phi, the kick's gain [s]   y = h, the drift's length [s]
-//       z = gain, w = decay of the prediction that follows (velocity Verlet); 0 and 1 without
+//       z = gain, w = loss of the prediction that follows (velocity Verlet); 0 without
 //   then three vec4 a sphere, in scene order:
 //   [2+3s] xyz = centre at the drift's end [m]           w = reach: radius + half thickness [m]
 //   [3+3s] xyz = the centre's travel during the drift [m]  w = friction coefficient

@@ -37,7 +37,7 @@ void move(Step s, Column c, inout March m) {
       contact(s.row, x0, x1, v);
       if (x1 != free) forget_lost(m.p);
     }
-    predicted = kicked_by(s.predict_decay, s.predict_gain, v, acc);
+    predicted = kicked_by(s.predict_loss, s.predict_gain, v, acc);
   }
   position_next[m.p] = vec4(x1, relative);
   velocity_next[m.p] = vec4(predicted, 0.0);

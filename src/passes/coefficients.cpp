@@ -39,14 +39,14 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
   const Scene& scene = model.scene;
   const double alpha = drag_rate(model);
   SubstepRow<double> out{
-      alpha * wind_at(scene, row.kick_time_s), 1.0, row.kick_s, row.drift_s, row.predict_s, 1.0, {}};
+      alpha * wind_at(scene, row.kick_time_s), 0.0, row.kick_s, row.drift_s, row.predict_s, 0.0, {}};
   if (row.plain_air) {
-    out.decay = alpha;
-  } else if (alpha > 0.0) {
-    out.decay = std::exp(-alpha * row.kick_s);
-    out.gain = -std::expm1(-alpha * row.kick_s) / alpha;  // (1 − e)/α without cancellation
-    out.predict_decay = std::exp(-alpha * row.predict_s);
-    out.predict_gain = -std::expm1(-alpha * row.predict_s) / alpha;
+    out.loss = alpha;
+  } else if (alpha > 0.0) {  // 1 − e without cancellation
+    out.loss = -std::expm1(-alpha * row.kick_s);
+    out.gain = out.loss / alpha;
+    out.predict_loss = -std::expm1(-alpha * row.predict_s);
+    out.predict_gain = out.predict_loss / alpha;
   }
   for (const SphereSection& sphere : scene.spheres) {
     const glm::dvec3 end = sphere_center_at(sphere, row.drift_time_s + row.drift_s);

@@ -36,11 +36,11 @@ struct SphereRow {
 template <class T>
 struct SubstepRow {
   glm::vec<3, T> alpha_wind;  ///< α·wind at the kick's time [m/s²]
-  T decay;                    ///< e = exp(−α·kick); α itself where air is an ordinary force
+  T loss;                     ///< 1 − e, e = exp(−α·kick); α itself where air is an ordinary force
   T gain;                     ///< φ = (1 − e)/α, or the kick's length without air [s]
   T drift;                    ///< the drift's length [s]
   T predict_gain;             ///< of the kick that predicts; 0 without one
-  T predict_decay;            ///< 1 without one
+  T predict_loss;             ///< 0 without one
   std::vector<SphereRow<T>> spheres;
 };
 
@@ -63,11 +63,11 @@ template <class T>
 SubstepRow<T> substep_row(const Model& model, const KickDrift& kick_drift) {
   const SubstepRow<double> exact = substep_row_exact(model, kick_drift);
   SubstepRow<T> row{exact.alpha_wind,
-                    static_cast<T>(exact.decay),
+                    static_cast<T>(exact.loss),
                     static_cast<T>(exact.gain),
                     static_cast<T>(exact.drift),
                     static_cast<T>(exact.predict_gain),
-                    static_cast<T>(exact.predict_decay),
+                    static_cast<T>(exact.predict_loss),
                     {}};
   row.spheres.reserve(exact.spheres.size());
   for (const SphereRow<double>& s : exact.spheres)

@@ -39,7 +39,7 @@ struct KickDrift {
   double kick_time_s = 0;   ///< when the kick's wind is evaluated
   double drift_time_s = 0;  ///< when the drift begins
   double predict_s = 0;     ///< a further kick that only predicts a velocity; 0: none
-  bool plain_air = false;   ///< Runge–Kutta: air is an ordinary force; the row has α and no decay
+  bool plain_air = false;   ///< Runge–Kutta: air is an ordinary force; the row has α for its loss
 };
 
 /// What a mirror sees: the model, the constants of the step, which dispatch of the frame it is.

@@ -8,7 +8,7 @@ namespace weft {
 template <class T>
 Vec3<T> stage_acceleration(const Substep<T>& substep, const Particle<T>& stage, const Vec3<T>& force) {
   const Vec3<T> acceleration = substep.acceleration(force, stage.w);
-  return substep.has_air ? acceleration - substep.row.decay * stage.v : acceleration;  // decay: α itself
+  return substep.has_air ? acceleration - substep.row.loss * stage.v : acceleration;  // loss: α itself
 }
 
 /// A pass's output buffers, resized to the grid.

@@ -81,9 +81,14 @@ struct Substep {
     return acceleration;
   }
 
+  /// The same with another pair than the row's.
+  Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration, T loss, T gain) const {
+    return has_air ? v + (gain * acceleration - loss * v) : v + gain * acceleration;
+  }
+
   /// docs/float-form.md "Kick and drift".
   Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration) const {
-    return has_air ? row.decay * v + row.gain * acceleration : v + row.gain * acceleration;
+    return kicked(v, acceleration, row.loss, row.gain);
   }
 
   bool has_contact() const { return has_spheres || has_floor; }

@@ -34,8 +34,8 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
   table.clear();
   for (const KickDrift& kick_drift : rows) {
     const SubstepRow<float> row = substep_row<float>(model, kick_drift);
-    table.emplace_back(row.alpha_wind, row.decay);
-    table.emplace_back(row.gain, row.drift, row.predict_gain, row.predict_decay);
+    table.emplace_back(row.alpha_wind, row.loss);
+    table.emplace_back(row.gain, row.drift, row.predict_gain, row.predict_loss);
     for (const SphereRow<float>& sphere : row.spheres) {
       table.emplace_back(sphere.center, sphere.reach);
       table.emplace_back(sphere.travel, sphere.friction);

@@ -17,7 +17,6 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& half_velocity = buffers[BufferId::half_velocity];
   for (auto* out : {&position_next, &velocity_next, &half_velocity}) out->resize(context.model.grid.count());
   const bool starts = context.row_index == 0;
-  const T decay = substep.row.predict_decay, gain = substep.row.predict_gain;
   auto& lost = buffers[BufferId::compensation];
   if (kCompensated) lost.resize(context.model.grid.count(), glm::vec<4, T>(T(0)));
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
@@ -33,7 +32,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       const Vec3<T> free = x1;
       if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
       if (kCompensated && x1 != free) lost[p] = glm::vec<4, T>(T(0));
-      predicted = substep.has_air ? decay * v + gain * acceleration : v + gain * acceleration;
+      predicted = substep.kicked(v, acceleration, substep.row.predict_loss, substep.row.predict_gain);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(predicted, T(0));

@@ -21,7 +21,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     Vec3<T> x1 = own.x, v = own.v, behind = own.x;
     if (!own.pinned()) {
       Vec3<T> travelled = starts ? h * own.v : own.x - xyz(previous[p]);
-      if (substep.has_air) travelled = substep.row.decay * travelled;
+      if (substep.has_air) travelled = travelled - substep.row.loss * travelled;
       x1 = (own.x + travelled) + gain * substep.acceleration(force, own.w);
       v = (x1 - own.x) / h;
       if (substep.has_contact()) {

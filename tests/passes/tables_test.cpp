@@ -76,7 +76,7 @@ TEST(SubstepTable, RowsAreLaidOutAsDocumented) {
   // wind(0.1) = velocity·1.5 at a quarter of the period; α = 2
   EXPECT_FLOAT_EQ(table[0].x, 1.5f);
   EXPECT_FLOAT_EQ(table[0].z, 9.0f);
-  EXPECT_FLOAT_EQ(table[0].w, static_cast<float>(std::exp(-0.01)));
+  EXPECT_FLOAT_EQ(table[0].w, static_cast<float>(1 - std::exp(-0.01)));
   EXPECT_FLOAT_EQ(table[1].x, static_cast<float>((1 - std::exp(-0.01)) / 2));
   EXPECT_FLOAT_EQ(table[1].y, 0.01f);
   EXPECT_FLOAT_EQ(table[2].y, static_cast<float>(1.0 - 2 * 0.11));
@@ -94,7 +94,7 @@ TEST(SubstepTable, WithoutAirTheKickIsItsLength) {
   scene.wind.reset();
   scene.air.reset();
   const SubstepRow<double> row = substep_row_exact(build_model(scene), {0.25, 0.5, 0.0, 0.0});
-  EXPECT_EQ(row.decay, 1.0);
+  EXPECT_EQ(row.loss, 0.0);
   EXPECT_EQ(row.gain, 0.25);
   EXPECT_EQ(row.alpha_wind, glm::dvec3(0.0));
 }
