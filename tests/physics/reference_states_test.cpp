@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "gpu_fixture.h"
 #include "model/measures.h"
 #include "model/state_io.h"
 #include "scene/reader.h"
-#include "sim/simulation.h"
+#include "sim/gpu_simulation.h"
 
 namespace weft {
 namespace {
@@ -26,7 +27,8 @@ constexpr Reference kReferences[] = {
     {"trampoline-stiff", 0.2, 3.54e-8, 7.35324e-5, 9178},
 };
 
-class ReferenceStates : public testing::TestWithParam<Reference> {
+/// What both fixtures share: the scene, its converged state, and a run against it.
+class WithReference : public testing::WithParamInterface<Reference> {
  protected:
   std::filesystem::path file(const char* extension) const {
     return std::filesystem::path(WEFT_SOURCE_DIR) / "tests/physics/reference" /
@@ -34,19 +36,30 @@ class ReferenceStates : public testing::TestWithParam<Reference> {
   }
   Model model() const { return build_model(load_scene(file(".toml")).scene); }
 
-  /// RMS position error at the reference's time with the leapfrog's automatic number of substeps.
-  double error_m(const char* solver, const char* precision) const {
+  Model paced_model() const {
     Model cloth = model();
     cloth.scene.solver.substeps = substeps_per_frame(cloth, find_solver("leapfrog"));
+    return cloth;
+  }
+
+  /// RMS position error at the reference's time with the leapfrog's automatic number of substeps.
+  double error_m(const char* solver, const char* precision) const {
+    const Model cloth = paced_model();
     const auto simulation = make_cpu_simulation(cloth, find_solver(solver), precision);
-    run_for(*simulation, GetParam().time_s, [](auto...) { return true; });
-    EXPECT_NEAR(simulation->time_s(), GetParam().time_s, 1e-12);
-    const double rms_m = rms_distance(simulation->read(), read_csv(file(".csv"), cloth.grid));
-    RecordProperty(std::string(solver) + "_rms_m", std::to_string(rms_m));
-    std::printf("  %s %s %s: %.3g m RMS\n", GetParam().name, solver, precision, rms_m);
+    return error_of(*simulation, solver, precision);
+  }
+  double error_of(Simulation& simulation, const char* solver, const char* precision) const {
+    run_for(simulation, GetParam().time_s, [](auto...) { return true; });
+    EXPECT_NEAR(simulation.time_s(), GetParam().time_s, 1e-12);
+    const double rms_m = rms_distance(simulation.read(), read_csv(file(".csv"), simulation.model().grid));
+    std::printf("  %s %s %s, %s: %.3g m RMS\n", GetParam().name, solver, precision,
+                simulation.device_name().c_str(), rms_m);
     return rms_m;
   }
 };
+
+class ReferenceStates : public testing::Test, public WithReference {};
+class ReferenceStatesOnTheDevice : public test::GpuTest, public WithReference {};
 
 TEST_P(ReferenceStates, SpringCountAndStepBound) {
   const Model cloth = model();
@@ -66,12 +79,18 @@ TEST_P(ReferenceStates, LeapfrogInDouble) {
   EXPECT_LE(error_m("leapfrog", "f64"), std::max(1e-4, 5 * GetParam().twin_m));
 }
 
+TEST_P(ReferenceStatesOnTheDevice, LeapfrogInFloat) {
+  const auto simulation = GpuSimulation::create(device(), paced_model(), find_solver("leapfrog"));
+  EXPECT_LE(error_of(*simulation, "leapfrog", "f32"), std::max(1e-4, 5 * GetParam().twin_m));
+}
+
 std::string test_name(const testing::TestParamInfo<Reference>& reference) {
   std::string name = reference.param.name;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(All, ReferenceStates, testing::ValuesIn(kReferences), test_name);
+INSTANTIATE_TEST_SUITE_P(All, ReferenceStatesOnTheDevice, testing::ValuesIn(kReferences), test_name);
 
 }  // namespace
 }  // namespace weft
