@@ -8,7 +8,8 @@
 
 READS (vec4, substeps)
 READS (vec4, constraints)
-UPDATES(vec4, position)
+READS (vec4, position)         // where the substep began
+UPDATES(vec4, position_next)  // how far each has moved since
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
@@ -27,7 +28,7 @@ void main() {
   float compliance = constraints[kConstraintBend + (boundary ? 1u : 0u)].y;
 
   uint pa = j * nx + i, pb = pa + next, pc = pb + next;
-  vec4 a = position[pa], b = position[pb], c = position[pc];
+  vec4 a = position_next[pa], b = position_next[pb], c = position_next[pc];
   precise float wa = a.w * params.inverse_mass_1_kg;
   precise float wb = b.w * params.inverse_mass_1_kg;
   precise float wc = c.w * params.inverse_mass_1_kg;
@@ -35,13 +36,15 @@ void main() {
   if (w == 0.0) return;
   precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
   precise float stiff = compliance * (rate * rate);
-  precise vec3 push = (a.xyz - 2.0 * b.xyz) + c.xyz;
+  precise vec3 start = (position[pa].xyz - 2.0 * position[pb].xyz) + position[pc].xyz;
+  precise vec3 moved = (a.xyz - 2.0 * b.xyz) + c.xyz;
+  precise vec3 push = start + moved;
   push = push / (w + stiff);
   precise float wb2 = 2.0 * wb;
   precise vec3 xa = a.xyz - wa * push;
   precise vec3 xb = b.xyz + wb2 * push;
   precise vec3 xc = c.xyz - wc * push;
-  position[pa] = vec4(xa, a.w);
-  position[pb] = vec4(xb, b.w);
-  position[pc] = vec4(xc, c.w);
+  position_next[pa] = vec4(xa, a.w);
+  position_next[pb] = vec4(xb, b.w);
+  position_next[pc] = vec4(xc, c.w);
 }

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/pass.glsl"
 
-// Where each particle would go by itself: gravity and the exact kick of air, no springs.
+// How far each particle would move by itself: gravity and the exact kick of air, no springs. Until xpbd_finish,
+// position_next holds moves, which float resolves more finely than places.
 // Each invocation writes its own particle of position_next: no races.
 // Source: Macklin et al. 2019, Small Steps in Physics Simulation, algorithm 1; docs/solvers.md "xpbd".
 
@@ -25,10 +26,7 @@ void main() {
   uint p = j * params.nx + i;
   Step s = step_of(row_index * params.row_stride);
   vec4 own = position[p];
-  precise vec3 x1 = own.xyz;
-  if (own.w != 0.0) {
-    precise vec3 travelled = s.drift * kicked(s, velocity[p].xyz, acceleration(s, vec3(0.0), 0.0));
-    x1 = own.xyz + travelled;
-  }
-  position_next[p] = vec4(x1, own.w);
+  precise vec3 moved = vec3(0.0);
+  if (own.w != 0.0) moved = s.drift * kicked(s, velocity[p].xyz, acceleration(s, vec3(0.0), 0.0));
+  position_next[p] = vec4(moved, own.w);
 }

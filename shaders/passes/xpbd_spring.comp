@@ -8,8 +8,8 @@
 
 READS (vec4, substeps)
 READS (vec4, constraints)
-READS (vec4, position_next)  // where the substep began
-UPDATES(vec4, position)
+READS (vec4, position)         // where the substep began
+UPDATES(vec4, position_next)  // how far each has moved since
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
@@ -23,14 +23,16 @@ const uint kStructuralI = 0u, kStructuralJ = 1u, kShearUp = 3u, kFlexI = 4u, kFl
 uint pair_of_two(uint n, uint colour) { return (n / 2u) * 4u + colour * 2u + n % 2u; }
 
 void pull(uint pa, uint pb, vec3 k) {
-  vec4 a = position[pa], b = position[pb];
+  vec4 a = position_next[pa], b = position_next[pb];
   precise float wa = a.w * params.inverse_mass_1_kg;
   precise float wb = b.w * params.inverse_mass_1_kg;
   precise float w = wa + wb;
   if (w == 0.0) return;
   precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
   precise float stiff = k.y * (rate * rate);
-  precise vec3 d = b.xyz - a.xyz;
+  precise vec3 moved = b.xyz - a.xyz;
+  precise vec3 start = position[pb].xyz - position[pa].xyz;
+  precise vec3 d = start + moved;
   precise float l = sqrt(max(dot3(d, d), kTinyLengthSquared));
   precise float inverse = 1.0 / l;
   precise vec3 n = d * inverse;
@@ -38,17 +40,16 @@ void pull(uint pa, uint pb, vec3 k) {
   precise float weight = w;
   if (damping) {
     precise float gamma = k.z * rate;
-    precise vec3 moved = (b.xyz - position_next[pb].xyz) - (a.xyz - position_next[pa].xyz);
     precise float along = gamma * dot3(n, moved);
     error = error + along;
     weight = (1.0 + gamma) * w;
   }
   precise float size = error / (weight + stiff);
   precise vec3 push = size * n;
-  precise vec3 xa = a.xyz + wa * push;
-  precise vec3 xb = b.xyz - wb * push;
-  position[pa] = vec4(xa, a.w);
-  position[pb] = vec4(xb, b.w);
+  precise vec3 next_a = a.xyz + wa * push;
+  precise vec3 next_b = b.xyz - wb * push;
+  position_next[pa] = vec4(next_a, a.w);
+  position_next[pb] = vec4(next_b, b.w);
 }
 
 void main() {

@@ -21,16 +21,22 @@ Range item_domain(const Model& m, std::uint32_t item) {
   return triples.along_i ? Range{.x = count, .y = m.grid.ny} : Range{.x = m.grid.nx, .y = count};
 }
 
-/// docs/solvers.md "xpbd", one triple.
 template <class T>
-void straighten(T compliance, T step_s, T inverse_mass, glm::vec<4, T>& a, glm::vec<4, T>& b,
-                glm::vec<4, T>& c) {
+Vec3<T> second_difference(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
+  return (a - T(2) * b) + c;
+}
+
+/// docs/solvers.md "xpbd", one triple: `start` is its second difference when the substep began; a, b and c
+/// how far the particles have moved since.
+template <class T>
+void straighten(T compliance, T step_s, T inverse_mass, const Vec3<T>& start, glm::vec<4, T>& a,
+                glm::vec<4, T>& b, glm::vec<4, T>& c) {
   const T wa = a.w * inverse_mass, wb = b.w * inverse_mass, wc = c.w * inverse_mass;
   const T w = (wa + T(4) * wb) + wc;
   if (w == T(0)) return;
   const T rate = T(1) / step_s, stiff = compliance * (rate * rate);
   const Vec3<T> xa = xyz(a), xb = xyz(b), xc = xyz(c);
-  const Vec3<T> push = ((xa - T(2) * xb) + xc) / (w + stiff);
+  const Vec3<T> push = (start + second_difference(xa, xb, xc)) / (w + stiff);
   a = glm::vec<4, T>(xa - wa * push, a.w);
   b = glm::vec<4, T>(xb + (T(2) * wb) * push, b.w);
   c = glm::vec<4, T>(xc - wc * push, c.w);
@@ -40,7 +46,8 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Grid& grid = context.model.grid;
   const ConstraintRows<T> rows = constraint_rows<T>(context.model);
-  auto& position = buffers[BufferId::position];
+  const auto& start = std::as_const(buffers)[BufferId::position];
+  auto& moved = buffers[BufferId::position_next];
   const T step_s = static_cast<T>(context.row.drift_s);
   const T inverse_mass = static_cast<T>(1.0 / context.model.interior_mass_kg);
   const TripleColour triples = TripleColour::of(context.item);
@@ -51,8 +58,11 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
         if ((triples.along_i ? i : j) % 3 != triples.colour) continue;
         const std::uint32_t line = triples.along_i ? j : i, lines = triples.along_i ? grid.ny : grid.nx;
         const std::size_t row = shared::kConstraintBend + (line == 0 || line + 1 == lines ? 1 : 0);
-        straighten(rows[row].y, step_s, inverse_mass, position[grid.index(i, j)],
-                   position[grid.index(i + di, j + dj)], position[grid.index(i + 2 * di, j + 2 * dj)]);
+        const std::uint32_t a = grid.index(i, j), b = grid.index(i + di, j + dj),
+                            c = grid.index(i + 2 * di, j + 2 * dj);
+        straighten(rows[row].y, step_s, inverse_mass,
+                   second_difference(xyz(start[a]), xyz(start[b]), xyz(start[c])), moved[a], moved[b],
+                   moved[c]);
       }
     }
   });
@@ -68,7 +78,7 @@ const Pass xpbd_bend{
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 1e-6, .absolute = 0},
+    .tolerance = {.relative = 1e-6, .absolute = 1e-8},  // of a move: one ulp of a cell's length
     .item_domain = item_domain,
 };
 

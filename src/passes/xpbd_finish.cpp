@@ -15,18 +15,20 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const Grid& grid = context.model.grid;
-  const auto& solved = std::as_const(buffers)[BufferId::position];
-  auto& position_next = buffers[BufferId::position_next];  // where the substep began
+  auto& position_next = buffers[BufferId::position_next];  // how far each has moved
   auto& velocity_next = buffers[BufferId::velocity_next];
+  velocity_next.resize(grid.count());
   parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
-      const Vec3<T> x0 = xyz(position_next[p]);
-      Vec3<T> x1 = xyz(solved[p]), v = xyz(velocity_next[p]);
-      if (solved[p].w != T(0)) {
-        v = (x1 - x0) / substep.row.drift;
-        substep.touch(x0, x1, v);
+      const Particle<T> own(buffers, substep, p);
+      Vec3<T> x1 = own.x, v = own.v;
+      if (own.relative != T(0)) {
+        const Vec3<T> moved = xyz(position_next[p]);
+        x1 = own.x + moved;
+        v = moved / substep.row.drift;
+        substep.touch(own.x, x1, v);
       }
-      position_next[p] = glm::vec<4, T>(x1, solved[p].w);
+      position_next[p] = glm::vec<4, T>(x1, own.relative);
       velocity_next[p] = glm::vec<4, T>(v, T(0));
     }
   });

@@ -1,4 +1,4 @@
-// xpbd_predict: moves every particle as if it were free, by gravity and air alone; the springs follow as
+// xpbd_predict: how far every particle would move by itself, by gravity and air alone; the springs follow as
 // constraints. Declaration and CPU mirror. Source: Macklin et al. 2019, Small Steps, algorithm 1, lines 5-7.
 #include "passes/passes.h"
 #include "passes/xpbd.h"
@@ -20,12 +20,10 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
-      Vec3<T> x1 = own.x;
-      if (!own.pinned()) {
-        const Vec3<T> v = substep.kicked(own.v, substep.with_outside(Vec3<T>(T(0))));
-        x1 = own.x + substep.row.drift * v;
-      }
-      position_next[p] = glm::vec<4, T>(x1, own.relative);
+      Vec3<T> moved(T(0));
+      if (!own.pinned())
+        moved = substep.row.drift * substep.kicked(own.v, substep.with_outside(Vec3<T>(T(0))));
+      position_next[p] = glm::vec<4, T>(moved, own.relative);
     }
   });
 }
@@ -34,14 +32,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 const Pass xpbd_predict{
     .name = "xpbd_predict",
-    .about = "gravity and air: where each particle would go by itself",
+    .about = "gravity and air: how far each particle would move by itself",
     .domain = whole_cloth,
     .constants = constants,
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .tolerance = {.relative = 1e-6, .absolute = 0},
-    .swaps_state = true,
 };
 
 }  // namespace weft

@@ -64,13 +64,11 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
                                               BufferId::position_next, BufferId::velocity};
   static constexpr std::array kXpbdSpring = {BufferId::params, BufferId::substeps, BufferId::position,
                                              BufferId::position_next, BufferId::constraints};
-  static constexpr std::array kXpbdBend = {BufferId::params, BufferId::substeps, BufferId::position,
-                                           BufferId::constraints};
-  static constexpr std::array kXpbdFinish = {BufferId::params, BufferId::substeps, BufferId::position,
-                                             BufferId::position_next, BufferId::velocity_next};
+  static constexpr std::array kXpbdFinish = {BufferId::params,   BufferId::substeps,
+                                             BufferId::position, BufferId::position_next,
+                                             BufferId::velocity, BufferId::velocity_next};
   if (&pass == &xpbd_predict) return kXpbdPredict;
-  if (&pass == &xpbd_spring) return kXpbdSpring;
-  if (&pass == &xpbd_bend) return kXpbdBend;
+  if (&pass == &xpbd_spring || &pass == &xpbd_bend) return kXpbdSpring;
   if (&pass == &xpbd_finish) return kXpbdFinish;
   if (&pass == &normals) return kNormals;
   return {};

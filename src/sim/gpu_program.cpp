@@ -136,8 +136,7 @@ std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, co
   kernel.constants = constants;
   kernel.pipeline = pipelines.get(variant.module, std::string(step.pass->name), kernel.constants);
   const auto& bindings = kernel.pipeline->reflection().bindings;
-  for (const gpu::Binding& binding : bindings)
-    kernel.flips |= binding.writes && binding.binding == static_cast<std::uint32_t>(BufferId::position_next);
+  kernel.flips = step.pass->swaps_state;
   for (Parity parity = 0; parity < 2; ++parity)
     for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot) {
       std::vector<gpu::BoundBuffer> bound;
