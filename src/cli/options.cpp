@@ -155,6 +155,17 @@ void add_picture_options(CLI::App& app, Options& o) {
            [&o](const std::string& text) { o.picture.fps = parse_count("--fps", text, 1, 240, "--fps 30"); });
 }
 
+void add_choice_options(CLI::App& app, Options& o) {
+  add_text(app, "--error", "choose the cheapest solver and substeps whose measured error is below [m]",
+           "METRES", [&o](const std::string& text) {
+             o.error_m = parse_number("--error", text, 1e-15, 1e3, "m", "--error 1e-3");
+           });
+  add_text(app, "--budget", "choose the most accurate solver and substeps that fit [ms a frame]", "MS",
+           [&o](const std::string& text) {
+             o.budget_ms = parse_number("--budget", text, 1e-6, 1e9, "ms", "--budget 8");
+           });
+}
+
 void add_study_options(CLI::App& app, Options& o) {
   app.add_flag("--quick", o.study.quick, "fewer points and runs: at most two minutes");
   add_text(app, "--resolutions", "particles along the width; default the scene's (with --quick at most 33)",

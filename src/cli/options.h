@@ -39,6 +39,8 @@ struct Options {
   std::optional<std::string> precision;     ///< `--precision`
   std::optional<double> frame_s;            ///< `--frame`
   std::optional<double> time_s;             ///< `--time`
+  std::optional<double> error_m;            ///< `--error`: choose the cheapest setting below it
+  std::optional<double> budget_ms;          ///< `--budget`: choose the most accurate within it, ms a frame
   std::filesystem::path shaders;            ///< `--shaders`; empty: the embedded modules
   Format format = Format::human;
   bool validation = false, force_staging = false, quiet = false, verbose = false, check = false;
@@ -67,6 +69,9 @@ void add_out(CLI::App&, Options&, const std::string& about);
 
 /// Adds the options of `render`.
 void add_picture_options(CLI::App&, Options&);
+
+/// Adds `--error` and `--budget`.
+void add_choice_options(CLI::App&, Options&);
 
 /// Adds the options of `study`.
 void add_study_options(CLI::App&, Options&);

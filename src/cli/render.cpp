@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "cli/choose.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -106,12 +107,13 @@ Outcome film_scene(const Options& o, const Machine& machine, OffscreenRenderer& 
   return outcome;
 }
 
-Exit run(const Options& o) {
-  const std::string& name = only_scene(o);
-  if (!o.out)
+Exit run(const Options& asked) {
+  const std::string& name = only_scene(asked);
+  if (!asked.out)
     throw Error(Exit::usage,
                 "render: --out is missing; it must name a .png, a .mp4 or DIR/frame-%04d.png "
                 "(for example --out drop.mp4)");
+  const Options o = with_chosen_setting(asked, name, [&](const Scene&) { return asked.time_or_default_s(); });
   const Setup setup = set_up(o, name);
   const double run_s = o.time_or_default_s();
   stop_between_frames();
@@ -136,6 +138,7 @@ Exit run(const Options& o) {
 
 void add_options(CLI::App& app, Options& o) {
   add_scene(app, o);
+  add_choice_options(app, o);
   add_out(app, o, "FILE.mp4, FILE.png (the end), or DIR/frame-%04d.png (every picture; makes its folder)");
   add_picture_options(app, o);
 }

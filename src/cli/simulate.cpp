@@ -3,6 +3,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "cli/choose.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
@@ -88,8 +89,11 @@ void print_details(const Machine& machine, const Outcome& outcome) {
                            plan.bytes());
 }
 
-Exit run(const Options& o) {
-  const Setup setup = set_up(o, only_scene(o));
+Exit run(const Options& asked) {
+  const std::string& name = only_scene(asked);
+  const Options o =
+      with_chosen_setting(asked, name, [&](const Scene& scene) { return run_time_s(asked, scene); });
+  const Setup setup = set_up(o, name);
   const double run_s = run_time_s(o, setup.scene());
   std::unique_ptr<StateOutput> output;
   stop_between_frames();
@@ -112,6 +116,7 @@ Exit run(const Options& o) {
 
 void add_options(CLI::App& app, Options& o) {
   add_scene(app, o);
+  add_choice_options(app, o);
   add_out(app, o, "write the final state: .csv, .ply or .obj; .pc2 holds every frame");
   app.add_flag("--check", o.check,
                "hold the scene's [expect] block against the result; exit 5 when it is broken");

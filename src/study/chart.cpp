@@ -14,7 +14,7 @@
 namespace weft::study {
 namespace {
 
-constexpr double kWidth = 1000, kHeight = 640;
+constexpr double kWidth = 1020, kHeight = 640;
 constexpr double kLeft = 92, kRight = 752, kTop = 104, kBottom = 566;
 constexpr double kMargin = 30;  // above the plot, where diverged settings stand
 constexpr double kRealTime_ms_per_s = 1000.0;
@@ -99,8 +99,8 @@ class Diagram {
       x_.include(cost_(point));
       if (!point.diverged) y_.include(point.error_m);
     }
-    for (const double floor : {cloth_.twin_m, cloth_.float_floor_m, cloth_.agreement_m})
-      if (floor > 1e-12) y_.include(floor);
+    y_.include(cloth_.twin_m);
+    y_.include(cloth_.float_floor_m);
     if (cloth_.discretisation_m > 0.0) y_.include(cloth_.discretisation_m);
     if (axis == CostAxis::device_time && x_.within(kRealTime_ms_per_s, 1.2)) x_.include(kRealTime_ms_per_s);
     x_.widen(0.12);
@@ -110,8 +110,8 @@ class Diagram {
   std::string draw() {
     svg_.rectangle(0, 0, kWidth, kHeight, {.fill = "#ffffff"});
     draw_titles();
-    draw_floors();
     draw_grid();
+    draw_floors();
     draw_real_time();
     draw_front();
     for (const Series& series : series_of(points_)) draw_series(series);
@@ -165,8 +165,16 @@ class Diagram {
     svg_.rectangle(kLeft, y, kRight - kLeft, kBottom - y, {.fill = color, .opacity = 0.14});
     if (y >= kBottom - 1) return;
     svg_.line({kLeft, y}, {kRight, y}, {.stroke = color, .width = 1.4, .dash = "8 5"});
-    svg_.text(on_the_right ? kRight - 8 : kLeft + 8, std::min(y + 15, kBottom - 5), words,
-              {.size = 12, .anchor = on_the_right ? "end" : "start", .color = color});
+    note(on_the_right ? kRight - 8 : kLeft + 8, std::min(y + 16, kBottom - 5), words,
+         {.size = 12, .anchor = on_the_right ? "end" : "start", .color = color});
+  }
+
+  /// Words on a paper-coloured ground, so that no line runs through them.
+  void note(double x, double y, const std::string& words, const Words& look) {
+    const double width = 0.6 * look.size * static_cast<double>(words.size());
+    svg_.rectangle(look.anchor == "end" ? x - width : x - 3, y - 0.85 * look.size, width + 3,
+                   1.15 * look.size, {.fill = "#ffffff", .opacity = 0.75});
+    svg_.text(x, y, words, look);
   }
 
   void draw_floors() {
@@ -197,7 +205,7 @@ class Diagram {
   void draw_front_labels() {
     for (const Point* point : pareto_front(points_, cost_))
       svg_.text(place(*point).first - 9, place(*point).second + 14, std::to_string(point->setting.substeps),
-                {.size = 11, .anchor = "end", .color = "#444444"});
+                {.size = 11, .anchor = "end", .color = "#222222"});
   }
 
   void draw_series(const Series& series) {
@@ -243,7 +251,7 @@ class Diagram {
     words("diverged");
     if (axis_ != CostAxis::device_time) return;
     svg_.line({x + 20, y - 9}, {x + 20, y + 9}, {.stroke = "#b00020", .width = 1.8});
-    words(x_.contains(kRealTime_ms_per_s) ? "real time: 1000 ms a second" : "real time is not in range");
+    words(x_.contains(kRealTime_ms_per_s) ? "real time" : "real time: out of range");
   }
 
   const Study& study_;

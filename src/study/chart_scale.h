@@ -42,14 +42,14 @@ class LogScale {
     return from_ + (to_ - from_) * (std::log10(value) - low_) / (high_ - low_);
   }
 
-  /// Decades, and 2 to 9 between them; 2 and 5 bear labels on a short axis.
+  /// Decades, and 2 to 9 between them unless there are many; 2 and 5 bear labels on a short axis.
   std::vector<Tick> ticks() const {
     std::vector<Tick> list;
     const bool is_short = high_ - low_ < 2.2;
     for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(high_) + 1; ++decade)
       for (int m = 1; m <= 9; ++m) {
         const double value = m * std::pow(10.0, decade);
-        if (!contains(value)) continue;
+        if (!contains(value) || (m > 1 && high_ - low_ > 4.5)) continue;
         list.push_back({value, label(m, decade), m == 1 || (is_short && (m == 2 || m == 5))});
       }
     return list;

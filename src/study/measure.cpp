@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "model/measures.h"
+#include "plan/plan.h"
 #include "sim/gpu_simulation.h"
 
 namespace weft::study {
@@ -212,10 +213,10 @@ void time_further_runs(Run& run, const State& start, double time_s, const Measur
 std::span<const std::string_view> precisions() { return kPrecisions; }
 
 std::string unavailable(const Bench& bench, const Solver& solver, std::string_view precision) {
-  if (bench.device == nullptr)
-    return precision == "f32k" ? "compensated sums are not part of the CPU reference" : "";
+  if (precision == "f32k" && !has_compensated(solver)) return "has no form with compensated positions";
+  if (bench.device == nullptr) return "";
   if (!solver.on_gpu) return "runs on the CPU reference only";
-  return precision == "f32" ? "" : fmt::format("a Vulkan device computes in f32, not {}", precision);
+  return precision == "f64" ? "a Vulkan device computes in single precision" : "";
 }
 
 Point measure(const Bench& bench, const Model& model, const Setting& setting, const Reference& reference,

@@ -55,6 +55,9 @@ Reference make_reference(const Model& model, double time_s, const ReferenceOptio
 Reference find_reference(const Model& model, double time_s, const ReferenceOptions& options, const Stop& stop,
                          const std::function<void(const std::string&)>& note);
 
+/// The reference that find_reference left in the cache; nothing when there is none that can be read.
+std::optional<Reference> kept_reference(const Model& model, double time_s);
+
 /// Where find_reference keeps it; empty when there is no cache folder.
 std::filesystem::path reference_file(const Model& model, double time_s);
 

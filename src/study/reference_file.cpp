@@ -57,6 +57,22 @@ std::vector<glm::dvec3> take_vectors(std::string_view& bytes, std::size_t count)
   return vectors;
 }
 
+/// @throws Json::exception when the head lacks something
+std::optional<Reference> from_parts(const Json& head, std::string_view bytes) {
+  const std::size_t frames = head.at("frames"), particles = head.at("particles");
+  if (bytes.size() != frames * (sizeof(double) + 2 * particles * sizeof(glm::dvec3))) return {};
+  Reference reference = from_head(head);
+  for (std::size_t f = 0; f < frames; ++f) {
+    State state;
+    std::memcpy(&state.time_s, bytes.data(), sizeof state.time_s);
+    bytes.remove_prefix(sizeof state.time_s);
+    state.position = take_vectors(bytes, particles);
+    state.velocity = take_vectors(bytes, particles);
+    reference.frames.push_back(std::move(state));
+  }
+  return reference;
+}
+
 std::optional<Reference> load(const std::filesystem::path& file, const std::string& identity) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(file, failure)) return {};
@@ -100,28 +116,25 @@ std::optional<Reference> from_bytes(std::string_view bytes, std::string_view ide
   bytes.remove_suffix(sizeof checksum);
   if (hash_of(bytes) != checksum) return {};
   const Json head = Json::parse(bytes.substr(0, line), nullptr, false);
-  if (head.is_discarded() || head.value("identity", "") != identity) return {};
-  const std::size_t frames = head.at("frames"), particles = head.at("particles");
-  bytes.remove_prefix(line + 1);
-  if (bytes.size() != frames * (sizeof(double) + 2 * particles * sizeof(glm::dvec3))) return {};
-  Reference reference = from_head(head);
-  for (std::size_t f = 0; f < frames; ++f) {
-    State state;
-    std::memcpy(&state.time_s, bytes.data(), sizeof state.time_s);
-    bytes.remove_prefix(sizeof state.time_s);
-    state.position = take_vectors(bytes, particles);
-    state.velocity = take_vectors(bytes, particles);
-    reference.frames.push_back(std::move(state));
+  if (head.is_discarded()) return {};
+  try {
+    if (head.at("identity") != identity) return {};
+    return from_parts(head, bytes.substr(line + 1));
+  } catch (const Json::exception&) {
+    return {};
   }
-  return reference;
+}
+
+std::optional<Reference> kept_reference(const Model& model, double time_s) {
+  const std::filesystem::path file = reference_file(model, time_s);
+  return file.empty() ? std::nullopt : load(file, identity_of(model, time_s));
 }
 
 Reference find_reference(const Model& model, double time_s, const ReferenceOptions& options, const Stop& stop,
                          const std::function<void(const std::string&)>& note) {
+  if (auto kept = kept_reference(model, time_s); kept && good_enough(*kept, options)) return std::move(*kept);
   const std::string identity = identity_of(model, time_s);
   const std::filesystem::path file = reference_file(model, time_s);
-  if (!file.empty())
-    if (auto kept = load(file, identity); kept && good_enough(*kept, options)) return std::move(*kept);
   Reference reference = make_reference(model, time_s, options, stop, note);
   if (file.empty() || !make_folder(file.parent_path())) return reference;
   try {

@@ -76,8 +76,8 @@ std::string reference_text(const Cloth& cloth, double time_s) {
         "smaller error of a solver is more exact than the grid.",
         cloth.fine_nx, metres(cloth.discretisation_m));
   text += cloth.equilibrium == "found"
-              ? " “To rest” is the distance of the last frame to the static equilibrium, found by Newton's "
-                "method to 1e-9 N."
+              ? " “To rest” is the distance of the last frame to the static equilibrium, found by "
+                "Newton's method to 1e-9 N."
               : fmt::format(" No static equilibrium: {}.", escaped(cloth.equilibrium));
   return text + "</p>\n";
 }
