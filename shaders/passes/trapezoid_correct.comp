@@ -3,7 +3,8 @@
 #include "../shared/pass.glsl"
 
 // The step with the mean of the slopes at both ends. The *_next buffers hold where the step began.
-// Each invocation reads and writes its own particles of the *_next buffers and reads only the others: no races.
+// Each invocation reads and writes its own particles of the *_next buffers, and reads only the others:
+// no races.
 // Source: docs/solvers.md "Runge-Kutta stages".
 
 READS (vec4, substeps)

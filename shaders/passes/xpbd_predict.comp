@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/pass.glsl"
 
-// How far each particle would move by itself: gravity and the exact kick of air, no springs. Until xpbd_finish,
-// position_next holds moves, which float resolves more finely than places.
+// How far each particle would move by itself: gravity and the exact kick of air, no springs. Until
+// xpbd_finish, position_next holds moves, which float resolves more finely than places.
 // Each invocation writes its own particle of position_next: no races.
 // Source: Macklin et al. 2019, Small Steps in Physics Simulation, algorithm 1; docs/solvers.md "xpbd".
 

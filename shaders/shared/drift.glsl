@@ -1,4 +1,5 @@
-// The drift of one particle, plain or with Kahan's compensation: `compensation` holds what position has too much.
+// The drift of one particle, plain or with Kahan's compensation: `compensation` holds what position has
+// too much.
 
 vec3 drifted(uint p, vec3 x0, float h, vec3 v) {
   precise vec3 travelled = h * v;

@@ -1,5 +1,5 @@
-// The main of the explicit passes: an invocation marches down `rows` particles of a column. The including pass
-// defines move(), which does one particle; it includes force.glsl and kick.glsl first.
+// The main of the explicit passes: an invocation marches down `rows` particles of a column. The including
+// pass defines move(), which does one particle; it includes force.glsl and kick.glsl first.
 void move(Step s, Column c, inout March m);
 
 void main() {

@@ -1,5 +1,5 @@
-// A Runge-Kutta stage: the slope at what `position` and `velocity` hold. A row's gain is the stage's weight in
-// the step, its drift the stage's reach, its loss the air's rate. Includes after kick.glsl.
+// A Runge-Kutta stage: the slope at what `position` and `velocity` hold. A row's gain is the stage's weight
+// in the step, its drift the stage's reach, its loss the air's rate. Includes after kick.glsl.
 struct Slope {
   vec3 x, v;  // [m/s], [m/s²]; zero where the particle is pinned
 };

@@ -71,9 +71,9 @@ TEST(Sphere, IsNeverEnteredNorCrossed) {
   EXPECT_GT(hits, 10000);
 }
 
-// A particle aimed within a fifth of the radius loses what it flies inwards with, wherever its steps happen to
-// end: at the entry the normal lies within asin(0.2) of the flight, so at most sin of that angle is left. Pushing
-// out radially from a deep end near the equator would let it fly on.
+// A particle aimed within a fifth of the radius loses what it flies inwards with, wherever its steps happen
+// to end: at the entry the normal lies within asin(0.2) of the flight, so at most sin of that angle is left.
+// Pushing out radially from a deep end near the equator would let it fly on.
 TEST(Sphere, TurnsAsideWhatEndsDeepInside) {
   for (const double step_m : {0.35, 0.5, 1.0, 1.5, 3.0, 7.0}) {
     for (int place = 0; place < 200; ++place) {
