@@ -20,6 +20,7 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
 
 #include "../shared/effects.glsl"
+#include "../shared/held_params.glsl"
 layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"

@@ -1,6 +1,11 @@
 // The springs' force on a particle, gathered over its 12 neighbours in the order of docs/float-form.md,
-// marching down a column of particles so that what one row loaded and computed serves the rows below.
-// The including pass declares READS(vec4, position) and READS(vec4, velocity) first.
+// marching down a column of particles so that what one row loaded and computed serves the rows below. The
+// including pass declares READS(vec4, position) and READS(vec4, velocity) first, or defines both macros
+// below.
+#ifndef SOURCE_POSITION
+#define SOURCE_POSITION(particle) position[particle]
+#define SOURCE_VELOCITY(particle) velocity[particle]
+#endif
 
 #include "dot.glsl"
 
@@ -13,8 +18,8 @@ struct End {
 // coefficients of zero its force is zero.
 End end_at(uint particle) {
   End end;
-  end.x = position[particle].xyz;
-  end.v = damping ? velocity[particle].xyz : vec3(0.0);
+  end.x = SOURCE_POSITION(particle).xyz;
+  end.v = damping ? SOURCE_VELOCITY(particle).xyz : vec3(0.0);
   return end;
 }
 

@@ -1,8 +1,10 @@
 // The main of the explicit passes: an invocation marches down `rows` particles of a column. The including
-// pass defines move(), which does one particle; it includes force.glsl and kick.glsl first.
+// pass defines move(), which does one particle; it includes held_params.glsl, force.glsl and kick.glsl
+// first.
 void move(Step s, Column c, inout March m);
 
 void main() {
+  hold_params();
   uint i = gl_GlobalInvocationID.x, first = gl_GlobalInvocationID.y * rows;
   if (i >= params.nx || first >= params.ny) return;
   Step s = step_of(row_index * params.row_stride);

@@ -15,4 +15,9 @@ WEFT_BUFFERS(WEFT_BINDING)
 #define UPDATES(type, name) \
   layout(scalar, set = 0, binding = kBinding_##name) restrict buffer Block_##name { type name[]; };
 
+// A buffer of vec4 read as texels, by NAME_texel(index): nearly three times as fast on software devices.
+#define READS_TEXELS(name)                                                        \
+  layout(set = 0, binding = kBinding_##name) uniform samplerBuffer Texels_##name; \
+  vec4 name##_texel(uint index) { return texelFetch(Texels_##name, int(index)); }
+
 layout(scalar, set = 0, binding = kBinding_params) restrict readonly buffer Block_params { Params params; };

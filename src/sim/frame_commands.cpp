@@ -3,27 +3,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace weft {
 
-DispatchOrder::DispatchOrder(const Plan& plan, std::uint32_t substeps) : substeps_(substeps) {
+DispatchOrder::DispatchOrder(const Plan& plan, std::uint32_t substeps, std::uint32_t at_once)
+    : substeps_(substeps), at_once_(at_once) {
   std::uint32_t end = 0;
   for (const PlanStep& step : plan.steps) {
     start_ += step.block == Block::frame_start ? 1 : 0;
     block_ += step.block == Block::substep ? 1 : 0;
     end += step.block == Block::frame_end ? 1 : 0;
   }
-  count_ = start_ + block_ * substeps + end;
+  count_ = start_ + block_ * ((substeps + at_once - 1) / at_once) + end;
 }
 
 DispatchOrder::Dispatch DispatchOrder::operator[](std::uint32_t place) const {
-  if (place < start_) return {place, 0};
-  const std::uint32_t inside = place - start_;
-  if (inside < block_ * substeps_) return {start_ + inside % block_, inside / block_};
-  return {start_ + block_ + (inside - block_ * substeps_), substeps_};
+  if (place < start_) return {place, 0, 1};
+  const std::uint32_t inside = place - start_, repeats = (substeps_ + at_once_ - 1) / at_once_;
+  if (inside >= block_ * repeats) return {start_ + block_ + (inside - block_ * repeats), substeps_, 1};
+  const std::uint32_t substep = inside / block_ * at_once_;
+  return {start_ + inside % block_, substep, std::min(at_once_, substeps_ - substep)};
 }
 
 bool DispatchOrder::independent_of_substeps(std::uint32_t first, std::uint32_t count) const {
-  return first + count <= start_ + block_ * substeps_;
+  return first + count <= start_ + block_ * (substeps_ / at_once_);
 }
 
 FrameCommands::Chunk& FrameCommands::chunk(const ChunkKey& key, const DispatchOrder& order) {
@@ -52,14 +56,14 @@ std::unique_ptr<FrameCommands::Chunk> FrameCommands::record(const ChunkKey& key,
     Parity parity = key.parity;
     std::uint32_t run = 0;
     for (std::uint32_t place = key.first; place < key.first + key.count; ++place) {
-      const auto [step, substep] = order[place];
+      const auto [step, substep, count] = order[place];
       if (place == key.first) recorder.label(plan_.steps[step].pass->name);
       if (step != chunk->runs[run]) {
         recorder.end_label();
         chunk->timer->stamp(commands, ++run);
         recorder.label(plan_.steps[step].pass->name);
       }
-      program_.dispatch(recorder, step, parity, key.slot, plan_.table_row(plan_.steps[step], substep));
+      program_.dispatch(recorder, step, parity, key.slot, plan_.table_row(plan_.steps[step], substep), count);
       if (program_.flips(step)) parity ^= 1u;
     }
     recorder.end_label();

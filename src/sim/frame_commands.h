@@ -17,15 +17,18 @@ class DispatchOrder {
   struct Dispatch {
     std::size_t step;       ///< in the plan
     std::uint32_t substep;  ///< n after the last
+    std::uint32_t count;    ///< substeps it takes: more than one only with a kernel that can
   };
-  DispatchOrder(const Plan& plan, std::uint32_t substeps);
+  /// @param at_once  substeps the kernel takes into one dispatch; 1 unless the block is one pass
+  DispatchOrder(const Plan& plan, std::uint32_t substeps, std::uint32_t at_once = 1);
   std::uint32_t count() const { return count_; }
   Dispatch operator[](std::uint32_t place) const;
   /// Whether [first, first + count) lies where the order does not depend on n.
   bool independent_of_substeps(std::uint32_t first, std::uint32_t count) const;
 
  private:
-  std::uint32_t start_ = 0, block_ = 0, substeps_ = 0, count_ = 0;  // dispatches before; of one substep
+  std::uint32_t start_ = 0, block_ = 0;  // dispatches before the substeps; of one substep
+  std::uint32_t substeps_ = 0, at_once_ = 1, count_ = 0;
 };
 
 /// What makes two chunks the same commands.

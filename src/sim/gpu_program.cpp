@@ -17,30 +17,19 @@ std::uint64_t particles_at(const Scene& scene, std::uint32_t resolution) {
   return resolution * static_cast<std::uint64_t>(std::llround(scene.cloth.height_m / spacing_m) + 1);
 }
 
-/// How a device runs a step: which module, and how many rows of particles one invocation takes on.
-struct Variant {
-  std::string module;
-  std::uint32_t rows = 1;
-  std::vector<std::uint32_t> constants;  ///< after the pass's own
-};
-
-/// The one place that chooses. Marching down rows saves loads and coefficients, which is what a software
-/// device's time goes to (a third of the time at 16 rows); it keeps at least about 16 rows of workgroups for
-/// its threads. A GPU's caches make loads cheap, and it needs the invocations.
-Variant variant_for(const gpu::Device& device, const PlanStep& step) {
-  Variant variant{"passes/" + std::string(step.pass->name) + ".comp", 1, {}};
-  if (step.pass->marches) {
-    if (device.info().software) variant.rows = std::clamp(step.range.y / 16, 4u, 16u);
-    variant.constants = {variant.rows};
-  }
-  return variant;
-}
-
 VkBufferUsageFlags usage_of(BufferId id) {
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  const bool drawn = id == BufferId::position || id == BufferId::position_next || id == BufferId::normal;
-  return drawn ? kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT : kStorage;
+  switch (id) {
+    case BufferId::position:
+    case BufferId::position_next:
+      return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    case BufferId::velocity:
+    case BufferId::velocity_next: return kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    case BufferId::normal: return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+    case BufferId::band_scratch: return kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    default: return kStorage;
+  }
 }
 
 }  // namespace
@@ -67,7 +56,7 @@ void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
               fits);
 }
 
-GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan) {
+GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan, const Kernel& kernel) {
   require_fits(device, model, plan);
   for (const PlanBuffer& wanted : plan.buffers) {
     const std::uint32_t slots = slot_count(wanted.id);
@@ -79,6 +68,9 @@ GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan
                           slots > 1 ? gpu::Memory::upload : gpu::Memory::device);
     }
   }
+  if (const std::uint64_t bytes = scratch_bytes(kernel, plan); bytes > 0)
+    buffers_[BufferId::band_scratch].emplace_back(device, "band_scratch", bytes,
+                                                  usage_of(BufferId::band_scratch), gpu::Memory::device);
 }
 
 gpu::Buffer& GpuBuffers::at(BufferId id, std::uint32_t slot) {
@@ -99,6 +91,7 @@ std::uint64_t GpuBuffers::bytes() const {
 }
 
 BufferId at_parity(BufferId id, Parity parity) {
+  if (id == BufferId::band_texels) return BufferId::band_scratch;
   if (parity == 0) return id;
   switch (id) {
     case BufferId::position: return BufferId::position_next;
@@ -109,56 +102,96 @@ BufferId at_parity(BufferId id, Parity parity) {
   }
 }
 
+/// How a step runs: which module, with which constants after the pass's own, and what an invocation takes on.
+struct GpuProgram::Variant {
+  std::string module;
+  std::vector<std::uint32_t> constants;
+  std::uint32_t columns = 1, rows = 1;
+};
+
+/// The one place that says what a kernel is on a device. Workgroups are small on software devices, where each
+/// is one thread's, and of 64 elsewhere.
+GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const PlanStep& step,
+                                            const Kernel& kernel, bool several) {
+  const std::string name = "passes/" + std::string(step.pass->name);
+  const auto local = [&](std::uint32_t needed) {
+    const std::uint32_t most = device.info().software ? 256 : 64;
+    return std::min((needed + 7) / 8 * 8, most);
+  };
+  const std::uint32_t strips = (step.range.x + kernel.columns - 1) / kernel.columns;
+  if (step.pass == &integrate && several)
+    return {name + "_bands.comp", {kernel.columns, kernel.substeps, local(strips)}, kernel.columns, 0};
+  if (step.pass == &integrate && kernel.kind >= KernelKind::strip) {
+    const std::uint32_t wide = device.info().software ? 64 / kernel.columns : 64;
+    return {name + "_strip.comp",
+            {kernel.columns, kernel.rows, std::min(local(strips), wide)},
+            kernel.columns,
+            kernel.rows};
+  }
+  const std::uint32_t rows = step.pass->marches ? kernel.rows : 1;
+  const std::vector<std::uint32_t> constants(step.pass->marches ? 1 : 0, rows);
+  const bool texel = step.pass == &integrate && kernel.kind == KernelKind::texel;
+  return {name + (texel ? "_texel.comp" : ".comp"), constants, 1, rows};
+}
+
 GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers,
-                       std::shared_ptr<GpuPipelines> pipelines) {
+                       std::shared_ptr<GpuPipelines> pipelines, const std::optional<Kernel>& kernel)
+    : kernel_(kernel ? *kernel : direct_kernel(device, plan)) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
-    const std::size_t kernel = kernel_for(device, step, buffers, *pipelines);
-    const auto& local = kernels_[kernel].pipeline->reflection().local_size;
-    const std::uint32_t rows = local[1] * kernels_[kernel].rows;
-    steps_.push_back(
-        {kernel, (step.range.x + local[0] - 1) / local[0], (step.range.y + rows - 1) / rows, step.item});
+    Step& made = steps_.emplace_back(Step{work_for(device, step, buffers, *pipelines, false), {}, step.item});
+    if (kernel_.substeps > 1 && step.pass == &integrate && step.block == Block::substep)
+      made.several = work_for(device, step, buffers, *pipelines, true);
   }
 }
 
-std::size_t GpuProgram::kernel_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
-                                   GpuPipelines& pipelines) {
-  const Variant variant = variant_for(device, step);
+GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
+                                      GpuPipelines& pipelines, bool several) {
+  const Variant variant = variant_for(device, step, kernel_, several);
+  const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
+  if (several) return {pipeline, 1, kernel_.bands};
+  const auto& local = pipelines_[pipeline].pipeline->reflection().local_size;
+  const std::uint32_t columns = local[0] * variant.columns, rows = local[1] * variant.rows;
+  return {pipeline, (step.range.x + columns - 1) / columns, (step.range.y + rows - 1) / rows};
+}
+
+std::size_t GpuProgram::pipeline_for(gpu::Device& device, const PlanStep& step, const Variant& variant,
+                                     const GpuBuffers& buffers, GpuPipelines& pipelines) {
   std::vector<std::uint32_t> constants;
   for (const Constant& constant : step.constants) constants.push_back(constant.value);
   constants.insert(constants.end(), variant.constants.begin(), variant.constants.end());
-  for (std::size_t k = 0; k < kernels_.size(); ++k)
-    if (kernels_[k].module == variant.module && kernels_[k].constants == constants) return k;
+  for (std::size_t k = 0; k < pipelines_.size(); ++k)
+    if (pipelines_[k].module == variant.module && pipelines_[k].constants == constants) return k;
 
-  Kernel kernel;
-  kernel.module = variant.module;
-  kernel.rows = variant.rows;
-  kernel.constants = constants;
-  kernel.pipeline = pipelines.get(variant.module, std::string(step.pass->name), kernel.constants);
-  const auto& bindings = kernel.pipeline->reflection().bindings;
-  kernel.flips = step.pass->swaps_state;
+  Pipeline made;
+  made.module = variant.module;
+  made.constants = constants;
+  made.pipeline = pipelines.get(variant.module, std::string(step.pass->name), constants);
+  const auto& bindings = made.pipeline->reflection().bindings;
+  made.flips = step.pass->swaps_state;
   for (Parity parity = 0; parity < 2; ++parity)
     for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot) {
       std::vector<gpu::BoundBuffer> bound;
       for (const gpu::Binding& binding : bindings)
         bound.push_back({binding.binding, &buffers.at(at_parity(BufferId{binding.binding}, parity), slot)});
-      kernel.sets.emplace_back(device, *kernel.pipeline, bound);
+      made.sets.emplace_back(device, *made.pipeline, bound);
     }
-  kernels_.push_back(std::move(kernel));
-  return kernels_.size() - 1;
+  pipelines_.push_back(std::move(made));
+  return pipelines_.size() - 1;
 }
 
-bool GpuProgram::flips(std::size_t step) const { return kernels_[steps_[step].kernel].flips; }
+bool GpuProgram::flips(std::size_t step) const { return pipelines_[steps_[step].one.pipeline].flips; }
 
 void GpuProgram::dispatch(gpu::Recorder& recorder, std::size_t step, Parity parity, std::uint32_t slot,
-                          std::uint32_t row) const {
+                          std::uint32_t row, std::uint32_t substeps) const {
   const Step& place = steps_[step];
-  const Kernel& kernel = kernels_[place.kernel];
-  const std::array<std::uint32_t, 2> words{row, place.item};
-  const std::size_t taken = kernel.pipeline->reflection().push_constant_bytes / sizeof(std::uint32_t);
+  const Work& work = substeps > 1 ? place.several.value() : place.one;
+  const Pipeline& used = pipelines_[work.pipeline];
+  const std::array<std::uint32_t, 2> words{row, substeps > 1 ? substeps : place.item};
+  const std::size_t taken = used.pipeline->reflection().push_constant_bytes / sizeof(std::uint32_t);
   const auto push = std::as_bytes(std::span(words).first(taken));
-  recorder.dispatch(*kernel.pipeline, kernel.sets[parity * kFrameSlots + slot], place.groups_x,
-                    place.groups_y, push);
+  recorder.dispatch(*used.pipeline, used.sets[parity * kFrameSlots + slot], work.groups_x, work.groups_y,
+                    push);
 }
 
 }  // namespace weft

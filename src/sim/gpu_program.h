@@ -14,6 +14,7 @@
 #include "plan/buffers.h"
 #include "plan/plan.h"
 #include "sim/gpu_pipelines.h"
+#include "sim/kernels.h"
 
 namespace weft {
 
@@ -21,14 +22,15 @@ namespace weft {
 ///         its memory: bytes needed, bytes there, largest resolution that fits.
 void require_fits(gpu::Device&, const Model&, const Plan&);
 
-/// The plan's buffers, and only those. What the host writes each frame exists once a frame slot.
+/// The plan's buffers and the kernel's scratch, and only those. What the host writes each frame exists once a
+/// frame slot.
 class GpuBuffers {
  public:
-  GpuBuffers(gpu::Device&, const Model&, const Plan&);
+  GpuBuffers(gpu::Device&, const Model&, const Plan&, const Kernel& kernel = {});
   gpu::Buffer& at(BufferId id, std::uint32_t slot = 0);
   const gpu::Buffer& at(BufferId id, std::uint32_t slot = 0) const;
   bool has(BufferId id) const { return buffers_.contains(id); }
-  /// Bytes of the buffers there are; the plan's promise is checked against it.
+  /// Bytes of the buffers there are; the plan's promise and the kernel's scratch are checked against it.
   std::uint64_t bytes() const;
 
  private:
@@ -43,31 +45,44 @@ using Parity = std::uint32_t;
 class GpuProgram {
  public:
   /// @param pipelines  where they are kept for the next program; null: for this one alone
-  GpuProgram(gpu::Device&, const Plan&, const GpuBuffers&, std::shared_ptr<GpuPipelines> pipelines = nullptr);
+  /// @param kernel     that runs `integrate`; the buffers were made for it. Absent: direct_kernel()
+  GpuProgram(gpu::Device&, const Plan&, const GpuBuffers&, std::shared_ptr<GpuPipelines> pipelines = nullptr,
+             const std::optional<Kernel>& kernel = {});
   /// Records one dispatch of plan step `step`; `row` is its row of the substep table.
-  void dispatch(gpu::Recorder&, std::size_t step, Parity, std::uint32_t slot, std::uint32_t row) const;
+  /// @param substeps  that it takes, at most the kernel's; each reads the row after the one before
+  void dispatch(gpu::Recorder&, std::size_t step, Parity, std::uint32_t slot, std::uint32_t row,
+                std::uint32_t substeps = 1) const;
+  const Kernel& kernel() const { return kernel_; }
   /// Whether the step writes the state's other half, so that the parity changes after it.
   bool flips(std::size_t step) const;
   const gpu::ComputePipeline& pipeline(std::size_t step) const {
-    return *kernels_[steps_[step].kernel].pipeline;
+    return *pipelines_[steps_[step].one.pipeline].pipeline;
   }
-  std::size_t pipeline_count() const { return kernels_.size(); }
+  std::size_t pipeline_count() const { return pipelines_.size(); }
 
  private:
-  struct Kernel {
+  struct Pipeline {
     std::string module;
     std::vector<std::uint32_t> constants;
     std::shared_ptr<const gpu::ComputePipeline> pipeline;
-    std::uint32_t rows = 1;  ///< of particles, an invocation
     bool flips = false;
     std::vector<gpu::DescriptorSet> sets;  ///< [parity · kFrameSlots + slot]
   };
-  struct Step {
-    std::size_t kernel;
-    std::uint32_t groups_x, groups_y, item;
+  struct Work {
+    std::size_t pipeline;
+    std::uint32_t groups_x, groups_y;
   };
-  std::size_t kernel_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&);
-  std::vector<Kernel> kernels_;
+  struct Step {
+    Work one;                     ///< a dispatch of one substep
+    std::optional<Work> several;  ///< of more, where the kernel can
+    std::uint32_t item;
+  };
+  struct Variant;
+  static Variant variant_for(const gpu::Device&, const PlanStep&, const Kernel&, bool several);
+  Work work_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&, bool several);
+  std::size_t pipeline_for(gpu::Device&, const PlanStep&, const Variant&, const GpuBuffers&, GpuPipelines&);
+  Kernel kernel_;
+  std::vector<Pipeline> pipelines_;
   std::vector<Step> steps_;
 };
 

@@ -52,8 +52,10 @@ class VulkanSimulation final : public GpuSimulation {
         plan_(compile_plan(model_, require_gpu(solver), model_.scene.solver.precision)),
         perturbation_(options.perturb, plan_),
         program_plan_(perturbed(plan_, perturbation_)),
-        buffers_(device, model_, plan_),
-        program_(device, program_plan_, buffers_, options.pipelines),
+        pipelines_(options.pipelines ? options.pipelines : std::make_shared<GpuPipelines>(device)),
+        choice_(choose_kernel(device, model_, program_plan_, pipelines_, options.kernel)),
+        buffers_(device, model_, plan_, choice_.kernel),
+        program_(device, program_plan_, buffers_, pipelines_, choice_.kernel),
         commands_(device, plan_, program_),
         pacer_(options.dispatches_per_submit) {
     write_params();
@@ -73,6 +75,13 @@ class VulkanSimulation final : public GpuSimulation {
   std::string device_name() const override { return device_.info().name; }
   double time_s() const override { return time_s_; }
   std::uint64_t bytes_allocated() const override { return buffers_.bytes(); }
+  const KernelChoice& kernel() const override { return choice_; }
+  std::uint64_t dispatches_expected(std::uint32_t substeps) const override {
+    return dispatches_with(choice_.kernel, plan_, substeps);
+  }
+  std::uint64_t bytes_expected() const override {
+    return plan_.bytes() + scratch_bytes(choice_.kernel, plan_);
+  }
   std::uint32_t submit_count() const override { return submits_; }
   std::vector<double> step_ms() const override { return step_ms_; }
   DrawBuffers draw_buffers() const override {
@@ -127,6 +136,8 @@ class VulkanSimulation final : public GpuSimulation {
   Plan plan_;
   Perturbation perturbation_;
   Plan program_plan_;
+  std::shared_ptr<GpuPipelines> pipelines_;
+  KernelChoice choice_;
   GpuBuffers buffers_;
   GpuProgram program_;
   FrameCommands commands_;
@@ -217,7 +228,7 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
             .done = 0,
             .start_s = time_s_,
             .length_s = frame_s,
-            .order = DispatchOrder(plan_, substeps),
+            .order = DispatchOrder(plan_, substeps, choice_.kernel.substeps),
             .stats = {.substeps = substeps, .dispatches = 0, .spring_evaluations = 0}};
   submits_ = 0;
 }
@@ -241,8 +252,10 @@ bool VulkanSimulation::continue_frame() {
 }
 
 void VulkanSimulation::end_frame() {
-  for (std::uint32_t place = 0; place < frame_.order->count(); ++place)
-    frame_.stats.spring_evaluations += plan_.steps[(*frame_.order)[place].step].spring_evaluations;
+  for (std::uint32_t place = 0; place < frame_.order->count(); ++place) {
+    const DispatchOrder::Dispatch dispatch = (*frame_.order)[place];
+    frame_.stats.spring_evaluations += dispatch.count * plan_.steps[dispatch.step].spring_evaluations;
+  }
   time_s_ = frame_end_s(frame_.start_s, frame_.length_s);
   frame_.order.reset();
 }

@@ -10,6 +10,7 @@
 
 #include "gpu/device.h"
 #include "sim/gpu_pipelines.h"
+#include "sim/kernel_choice.h"
 #include "sim/simulation.h"
 
 namespace weft {
@@ -24,6 +25,7 @@ struct GpuSimulationOptions {
   std::uint32_t dispatches_per_submit = 0;  ///< 0: measured, so that a submit stays under about 50 ms
   std::string perturb;                      ///< "pass.constant" to falsify (perturb.h); empty: none
   std::shared_ptr<GpuPipelines> pipelines;  ///< shared with the simulation before this one; empty: its own
+  std::string kernel;  ///< one of kernel_names(); empty: WEFT_KERNEL, else direct (choose_kernel)
 };
 
 /// A pinned particle that something outside the plan moves: a hand.
@@ -43,6 +45,12 @@ class GpuSimulation : public Simulation {
   virtual DrawBuffers draw_buffers() const = 0;
   /// Milliseconds of each plan step in the latest finished frame, in plan order; empty without timestamps.
   virtual std::vector<double> step_ms() const = 0;
+  /// Which kernel runs `integrate`, and who decided.
+  virtual const KernelChoice& kernel() const = 0;
+  /// Dispatches of a frame of that many substeps: the plan's, divided as the kernel says (dispatches_with).
+  virtual std::uint64_t dispatches_expected(std::uint32_t substeps) const = 0;
+  /// The plan's bytes and the kernel's scratch.
+  virtual std::uint64_t bytes_expected() const = 0;
   /// Submits the latest advance() took.
   virtual std::uint32_t submit_count() const = 0;
   /// Returns when the device has finished every frame so far.

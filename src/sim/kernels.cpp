@@ -1,0 +1,132 @@
+// Which kernels there are for `integrate`, and which of them a device can run.
+#include "sim/kernels.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "passes/passes.h"
+#include "plan/buffers.h"
+
+namespace weft {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kNames = {"direct"sv, "texel"sv, "strip"sv, "bands"sv, "auto"sv};
+constexpr std::uint32_t kParticle = 2;  // vec4s: position and velocity
+constexpr std::uint64_t kMostForBands = 1u
+                                        << 17;  // particles; beyond, a dispatch costs little beside its work
+
+const PlanStep* substep_integrate(const Plan& plan) {
+  for (const PlanStep& step : plan.steps)
+    if (step.pass == &integrate && step.block == Block::substep) return &step;
+  return nullptr;
+}
+
+/// Marching down rows saves loads and coefficients, which is what a software device's time goes to; it keeps
+/// at least about 16 rows of workgroups for its threads. A GPU needs the invocations.
+std::uint32_t march_rows(const gpu::Device& device, std::uint32_t ny) {
+  return device.info().software ? std::clamp(ny / 16, 4u, 16u) : 1;
+}
+
+std::string texels_unfit(const gpu::Device& device, std::uint64_t texels) {
+  const std::uint64_t most = device.limits().maxTexelBufferElements;
+  if (texels <= most) return {};
+  return fmt::format("it reads {} texels of one buffer; {} allows {}", texels, device.info().name, most);
+}
+
+std::string bands_unfit(const gpu::Device& device, const Plan& plan, const Kernel& kernel) {
+  const PlanStep& step = *substep_integrate(plan);
+  const auto in_block = std::ranges::count(plan.steps, Block::substep, &PlanStep::block);
+  if (in_block != 1 || plan.solver->rows_per_substep != 1)
+    return "a substep of this plan is more than one pass";
+  const std::uint64_t particles = std::uint64_t{step.range.x} * step.range.y;
+  if (particles > kMostForBands)
+    return fmt::format("it is for at most {} particles; the cloth has {}", kMostForBands, particles);
+  const std::uint64_t bytes = scratch_bytes(kernel, plan), range = device.limits().maxStorageBufferRange;
+  if (bytes > range)
+    return fmt::format("its scratch takes {} bytes; {} binds {}", bytes, device.info().name, range);
+  return texels_unfit(device, bytes / 16);
+}
+
+std::string unfit(const gpu::Device& device, const Plan& plan, const Kernel& kernel) {
+  if (kernel.kind == KernelKind::direct) return {};
+  const PlanStep* step = substep_integrate(plan);
+  if (step == nullptr) return "the plan has no pass integrate";
+  std::string reason = texels_unfit(device, std::uint64_t{step->range.x} * step->range.y);
+  if (reason.empty() && kernel.kind == KernelKind::bands) reason = bands_unfit(device, plan, kernel);
+  return reason;
+}
+
+}  // namespace
+
+std::string describe(const Kernel& k) {
+  const std::string_view name = kNames.at(static_cast<std::size_t>(k.kind));
+  if (k.kind != KernelKind::bands) return fmt::format("{} {}x{}", name, k.columns, k.rows);
+  return fmt::format("{} {}x{}, {} substeps a dispatch", name, k.bands, k.columns, k.substeps);
+}
+
+std::span<const std::string_view> kernel_names() { return kNames; }
+
+Kernel direct_kernel(const gpu::Device& device, const Plan& plan) {
+  return {.kind = KernelKind::direct, .rows = march_rows(device, plan.steps.at(0).range.y)};
+}
+
+std::vector<KernelCandidate> kernel_candidates(const gpu::Device& device, const Plan& plan) {
+  const Kernel direct = direct_kernel(device, plan);
+  std::vector<Kernel> kernels;
+  if (substep_integrate(plan) != nullptr) {
+    kernels = {{.kind = KernelKind::strip, .columns = 4, .rows = 16},
+               {.kind = KernelKind::bands, .columns = 4, .rows = 16, .substeps = 4, .bands = 4},
+               {.kind = KernelKind::texel, .rows = direct.rows},
+               direct,
+               {.kind = KernelKind::strip, .columns = 4, .rows = 32},
+               {.kind = KernelKind::strip, .columns = 8, .rows = 16},
+               {.kind = KernelKind::strip, .columns = 8, .rows = 32}};
+    if (!device.info().software) std::ranges::rotate(kernels, kernels.begin() + 2);  // GPUs have caches
+  } else {
+    kernels = {direct};
+  }
+  std::vector<KernelCandidate> candidates;
+  for (const Kernel& kernel : kernels) candidates.push_back({kernel, unfit(device, plan, kernel)});
+  return candidates;
+}
+
+std::vector<std::string> fitting_kernel_names(const gpu::Device& device, const Plan& plan) {
+  std::vector<std::string> names{"direct"};
+  for (const KernelCandidate& candidate : kernel_candidates(device, plan)) {
+    const std::string name(kNames.at(static_cast<std::size_t>(candidate.kernel.kind)));
+    if (candidate.unfit.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+Kernel named_kernel(const gpu::Device& device, const Plan& plan, const std::string& name) {
+  const auto known = std::ranges::find(kNames, name);
+  if (known == kNames.end() || name == "auto")
+    throw error(Exit::usage, "kernel is \"{}\"; it must be direct, texel, strip, bands or auto", name);
+  std::string reason = "the plan has no pass integrate";
+  for (const KernelCandidate& candidate : kernel_candidates(device, plan)) {
+    if (candidate.kernel.kind != static_cast<KernelKind>(known - kNames.begin())) continue;
+    if (candidate.unfit.empty()) return candidate.kernel;
+    reason = candidate.unfit;
+  }
+  throw error(Exit::usage, "kernel {} does not fit: {}; use auto or direct", name, reason);
+}
+
+std::uint64_t scratch_bytes(const Kernel& kernel, const Plan& plan) {
+  if (kernel.kind != KernelKind::bands) return 0;
+  const Range& range = substep_integrate(plan)->range;
+  const std::uint64_t band_rows = (range.y + kernel.bands - 1) / kernel.bands;
+  const std::uint64_t rows = band_rows + 4 * (kernel.substeps - 1);  // two a side and later substep
+  return 2 * kernel.bands * rows * range.x * kParticle * 16;         // two halves
+}
+
+std::uint64_t dispatches_with(const Kernel& kernel, const Plan& plan, std::uint32_t substeps) {
+  std::uint64_t once = 0, block = 0;
+  for (const PlanStep& step : plan.steps) (step.block == Block::substep ? block : once) += 1;
+  return once + block * ((substeps + kernel.substeps - 1) / kernel.substeps);
+}
+
+}  // namespace weft
