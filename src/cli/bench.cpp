@@ -15,14 +15,15 @@ double pass_ms(const BenchRow& row, std::string_view pass) {
 }
 
 Table table_of(const BenchReport& report) {
-  Table table{{"scene", "resolution", "damping", "substeps", "ns_per_particle_substep", "spread",
-               "particle_substeps_per_s", "integrate_ms", "normals_ms", "gb_s", "copy_share", "bytes"},
-              {}};
+  Table table{
+      {"scene", "resolution", "damping", "substeps", "ns_per_particle_substep", "spread",
+       "particle_substeps_per_s", "integrate_ms", "normals_ms", "gb_s", "copy_share", "bytes", "kernel"},
+      {}};
   for (const BenchRow& row : report.rows)
     table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.damping, row.substeps,
                           row.ns_per_particle_substep.median, row.ns_per_particle_substep.spread,
                           row.particle_substeps_per_s, pass_ms(row, "integrate"), pass_ms(row, "normals"),
-                          row.gb_s, row.copy_share, row.bytes});
+                          row.gb_s, row.copy_share, row.bytes, row.kernel});
   return table;
 }
 

@@ -12,6 +12,7 @@
 #include "passes/passes.h"
 #include "passes/tables.h"
 #include "sim/gpu_program.h"
+#include "sim/kernel_choice.h"
 
 namespace weft {
 namespace {
@@ -75,6 +76,8 @@ class CopyBench {
           recorder.dispatch(pipeline_, set_, kCopyRow / pipeline_.reflection().local_size[0],
                             static_cast<std::uint32_t>((bytes_ / 16 + kCopyRow - 1) / kCopyRow));
         }) {
+    const std::vector<std::byte> filled(bytes_, std::byte{1});  // never written pages would all be one page
+    from_.write(filled);
     run();
     command_gb_s_.clear();
     shader_gb_s_.clear();
@@ -105,12 +108,13 @@ class CopyBench {
 /// One size of the scene, with its plan's buffers and pipelines, timing each plan step by itself.
 class SizeBench {
  public:
-  SizeBench(gpu::Device& device, const Scene& scene, const BenchOptions& options)
+  SizeBench(gpu::Device& device, const Scene& scene, const BenchOptions& options, const std::string& kernel)
       : device_(device),
         model_(build_model(scene)),
         plan_(compile_plan(model_, find_solver(scene.solver.name))),
-        buffers_(device, model_, plan_),
-        program_(device, plan_, buffers_) {
+        choice_(choose_kernel(device, model_, plan_, nullptr, kernel)),
+        buffers_(device, model_, plan_, choice_.kernel),
+        program_(device, plan_, buffers_, nullptr, choice_.kernel) {
     fill();
     const double budget_ms = std::min(options.repetition_s * 1e3, kSubmitMs);
     for (std::size_t step = 0; step < plan_.steps.size(); ++step) {
@@ -121,6 +125,7 @@ class SizeBench {
       const auto fits = static_cast<std::uint32_t>(std::clamp(budget_ms / one_ms, 2.0, 2000.0)) & ~1u;
       const auto runs = std::max(1.0, std::round(options.repetition_s * 1e3 / (fits * one_ms)));
       timings_.push_back({step,
+                          at_once(step),
                           fits,
                           static_cast<std::uint32_t>(runs),
                           std::make_unique<Timed>(device_, "bench", recording(step, fits)),
@@ -140,6 +145,7 @@ class SizeBench {
  private:
   struct Timing {
     std::size_t step;
+    std::uint32_t substeps;  ///< of one dispatch
     std::uint32_t dispatches, runs;
     std::unique_ptr<Timed> commands;
     std::vector<double> one_ms;
@@ -161,13 +167,19 @@ class SizeBench {
     return [this, step, dispatches](VkCommandBuffer commands) {
       gpu::Recorder recorder(device_, commands);
       for (std::uint32_t d = 0; d < dispatches; ++d)
-        program_.dispatch(recorder, step, program_.flips(step) ? d % 2 : 0, 0, d % plan_.substeps);
+        program_.dispatch(recorder, step, program_.flips(step) ? d % 2 : 0, 0,
+                          at_once(step) * d % (plan_.substeps - at_once(step) + 1), at_once(step));
     };
+  }
+  /// Substeps of one dispatch.
+  std::uint32_t at_once(std::size_t step) const {
+    return plan_.steps[step].block == Block::substep ? choice_.kernel.substeps : 1;
   }
 
   gpu::Device& device_;
   Model model_;
   Plan plan_;
+  KernelChoice choice_;
   GpuBuffers buffers_;
   GpuProgram program_;
   std::vector<Timing> timings_;
@@ -178,16 +190,19 @@ BenchRow SizeBench::result(double copy_gb_s) const {
   row.nx = model_.grid.nx;
   row.ny = model_.grid.ny;
   row.substeps = plan_.substeps;
-  row.bytes = plan_.bytes();
+  row.bytes = buffers_.bytes();
+  row.kernel = describe(choice_);
   for (const Constant& constant : plan_.steps[0].constants)
     if (constant.name == "damping") row.damping = constant.value != 0;
   for (const Timing& timing : timings_) {
     const PlanStep& step = plan_.steps[timing.step];
     const Sample ms = sample_of(timing.one_ms);
     row.passes.push_back({std::string(step.pass->name), ms});
+    row.passes.back().ms.median /= timing.substeps;
+    row.passes.back().ms.spread /= timing.substeps;
     if (step.block != Block::substep) continue;
     row.dispatches = timing.dispatches * timing.runs;
-    const double ns = 1e6 / model_.grid.count();
+    const double ns = 1e6 / model_.grid.count() / timing.substeps;
     row.ns_per_particle_substep.median += ms.median * ns;
     row.ns_per_particle_substep.spread += ms.spread * ns;
   }
@@ -209,6 +224,14 @@ std::vector<Scene> variants(const Scene& scene, const BenchOptions& options) {
         scenes.push_back(std::move(variant));
     }
   return scenes;
+}
+
+/// The one asked for, or all kinds that fit.
+std::vector<std::string> kernels_for(const gpu::Device& device, const Scene& scene,
+                                     const BenchOptions& options) {
+  if (options.kernel != "all") return {options.kernel};
+  const Plan plan = compile_plan(build_model(scene), find_solver(scene.solver.name));
+  return fitting_kernel_names(device, plan);
 }
 
 bool fits(gpu::Device& device, const Scene& scene) {
@@ -241,7 +264,9 @@ BenchReport bench(gpu::Device& device, const Scene& scene, const BenchOptions& o
   CopyBench copy(device);
   std::vector<std::unique_ptr<SizeBench>> sizes;
   for (const Scene& variant : variants(scene, options))
-    if (fits(device, variant)) sizes.push_back(std::make_unique<SizeBench>(device, variant, options));
+    if (fits(device, variant))
+      for (const std::string& kernel : kernels_for(device, variant, options))
+        sizes.push_back(std::make_unique<SizeBench>(device, variant, options, kernel));
   for (std::uint32_t repetition = 0; repetition < options.repetitions; ++repetition)
     for (const auto& size : sizes) {
       copy.run();

@@ -14,6 +14,7 @@ struct BenchOptions {
   std::uint32_t repetitions = 7;
   double repetition_s = 0.1;    ///< about how long one repetition of one kernel takes
   bool without_damping = true;  ///< also time every size with material.damping = 0
+  std::string kernel;           ///< one of kernel_names(), or "all"; empty: WEFT_KERNEL, else direct
 };
 
 /// Median of the repetitions and half the distance between the quartiles.
@@ -31,12 +32,13 @@ struct CopyBandwidth {
 
 struct BenchPass {
   std::string pass;
-  Sample ms;  ///< one dispatch
+  Sample ms;  ///< of one substep, or once at the frame's end
 };
 
 struct BenchRow {
   std::uint32_t nx = 0, ny = 0;
   bool damping = false;
+  std::string kernel;            ///< what ran `integrate` and who decided: "strip 4x16 (remembered)"
   std::uint32_t substeps = 0;    ///< a frame, automatic
   std::uint32_t dispatches = 0;  ///< of `integrate` in a repetition
   Sample ns_per_particle_substep;

@@ -52,7 +52,7 @@ std::string to_benchmark_json(const BenchReport& report) {
     for (const BenchPass& pass : row.passes) {
       const std::string name =
           fmt::format("{}/{}x{}/{}", pass.pass, row.nx, row.ny, row.damping ? "damped" : "undamped");
-      Json counters = {{"ms_spread", pass.ms.spread}, {"bytes", row.bytes}};
+      Json counters = {{"ms_spread", pass.ms.spread}, {"bytes", row.bytes}, {"kernel", row.kernel}};
       if (pass.pass == row.passes[0].pass) {
         counters["ns_per_particle_substep"] = row.ns_per_particle_substep.median;
         counters["items_per_second"] = row.particle_substeps_per_s;
