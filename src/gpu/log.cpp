@@ -11,7 +11,11 @@ std::shared_ptr<spdlog::logger> log() {
   static std::mutex making;  // messages may come from any of the driver's threads
   const std::lock_guard lock(making);
   if (auto known = spdlog::get("weft")) return known;
-  return spdlog::stderr_color_mt("weft");
+  auto made = spdlog::stderr_color_mt("weft");
+  made->set_pattern("weft: %l: %v");  // as the program's own lines
+  return made;
 }
+
+void set_quiet(bool quiet) { log()->set_level(quiet ? spdlog::level::err : spdlog::level::info); }
 
 }  // namespace weft::gpu

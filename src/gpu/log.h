@@ -1,5 +1,4 @@
 // Where src/gpu says what is no error: the program's logger on stderr; stdout is for results alone.
-// Internal to src/gpu.
 #pragma once
 #include <spdlog/spdlog.h>
 
@@ -9,5 +8,8 @@ namespace weft::gpu {
 
 /// The logger registered as "weft", made for stderr when nobody has registered one.
 std::shared_ptr<spdlog::logger> log();
+
+/// Whether only failures are said, and no warnings (the command line's --quiet).
+void set_quiet(bool quiet);
 
 }  // namespace weft::gpu

@@ -109,6 +109,61 @@ TEST_F(Compute, SynchronizationValidationSeesMissingBarriers) {
   device().clear_validation_messages();
 }
 
+/// Dispatches into b, then copies b to a third buffer in the same command buffer.
+class DispatchThenCopy {
+ public:
+  explicit DispatchThenCopy(Device& device)
+      : device_(device),
+        scale_(device, "scale", compile_glsl_text(kScaleShader, "scale.comp"), kConstants),
+        a_(make("a")),
+        b_(make("b")),
+        copy_(make("copy")),
+        set_(device, scale_, std::vector<BoundBuffer>{{3, &a_}, {7, &b_}}) {
+    const std::vector<std::uint32_t> twos(kCount, 2u);
+    a_.write(std::as_bytes(std::span(twos)));
+  }
+  void run(bool finish) {
+    device_.run_once([&](VkCommandBuffer handle) {
+      Recorder recorder(device_, handle);
+      const Push push{5, kCount};
+      recorder.dispatch(scale_, set_, kCount / 64, 1, std::as_bytes(std::span(&push, 1)));
+      if (finish) recorder.finish();
+      const VkBufferCopy whole{0, 0, kCount * 4};
+      vkCmdCopyBuffer(handle, b_.handle(), copy_.handle(), 1, &whole);
+    });
+  }
+  const Buffer& copy() const { return copy_; }
+
+ private:
+  static constexpr std::uint32_t kConstants[] = {3, 64};
+  Buffer make(const char* name) {
+    constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    return Buffer(device_, name, kCount * 4, kUsage, Memory::device);
+  }
+  Device& device_;
+  ComputePipeline scale_;
+  Buffer a_, b_, copy_;
+  DescriptorSet set_;
+};
+
+// 3·2 + 5 = 11 must reach the copy, and the fixture sees that validation is silent.
+TEST_F(Compute, FinishOrdersWhatReadsAfterTheDispatches) {
+  DispatchThenCopy work(device());
+  work.run(true);
+  EXPECT_EQ(read(work.copy()), std::vector<std::uint32_t>(kCount, 11u));
+}
+
+// Without finish() the same copy is a read after write that validation must report.
+TEST_F(Compute, SynchronizationValidationSeesThatFinishIsMissing) {
+  DispatchThenCopy work(device());
+  work.run(false);
+  const auto messages = device().validation_messages();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages.front().find("SYNC-HAZARD-READ-AFTER-WRITE"), std::string::npos) << messages.front();
+  device().clear_validation_messages();
+}
+
 // Two dispatches that only share what both read need no barrier; a third that overwrites it does (WAR).
 TEST_F(Compute, BarriersStandOnlyWhereNeeded) {
   const ComputePipeline scale = scale_pipeline();

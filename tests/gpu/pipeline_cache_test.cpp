@@ -14,6 +14,14 @@ namespace {
 using namespace gpu;
 using Bytes = std::vector<char>;
 
+/// FNV-1a from a byte on, as the file format states.
+std::uint64_t fnv(const Bytes& bytes, std::size_t from) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (std::size_t i = from; i < bytes.size(); ++i)
+    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+  return hash;
+}
+
 class CacheFile : public test::GpuTest {
  protected:
   void SetUp() override {
@@ -76,15 +84,35 @@ TEST_F(CacheFile, DamagedTruncatedOrForeignIsIgnoredAndRewritten) {
   }
 }
 
+// A payload behind Vulkan's 32 bytes, with the checksum right, is taken; with any one of its bits flipped,
+// the length unchanged, it is not: drivers trust what they are given.
+TEST_F(CacheFile, AnyFlippedBitOfTheDriversPayloadIsSeen) {
+  constexpr std::size_t kHead = 24, kVulkanHead = 32;
+  open_and_close();
+  Bytes bytes = content();
+  for (int i = 0; i < 4000; ++i) bytes.push_back(static_cast<char>(i * 37));
+  const std::uint64_t length = bytes.size() - kHead, sum = fnv(bytes, kHead);
+  std::memcpy(bytes.data() + 8, &length, sizeof length);
+  std::memcpy(bytes.data() + 16, &sum, sizeof sum);
+  replace(bytes);
+  EXPECT_TRUE(PipelineCache(device(), folder_).loaded());
+  const std::size_t payload = kHead + kVulkanHead;
+  for (const std::size_t at : {payload, payload + 1, (payload + bytes.size()) / 2, bytes.size() - 1})
+    for (const int bit : {0, 7}) {
+      Bytes damaged = bytes;
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+      replace(damaged);
+      EXPECT_FALSE(open_and_close()) << "byte " << at << ", bit " << bit;
+    }
+}
+
 // A cache of another driver is whole by its checksum, and still not ours: the UUID in Vulkan's header says
 // so.
 TEST_F(CacheFile, AWholeFileOfAnotherDeviceIsIgnored) {
   open_and_close();
   Bytes bytes = content();
   bytes[24 + 16] = static_cast<char>(bytes[24 + 16] ^ 1);
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, as the file format states
-  for (std::size_t i = 24; i < bytes.size(); ++i)
-    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+  const std::uint64_t hash = fnv(bytes, 24);
   std::memcpy(bytes.data() + 16, &hash, sizeof hash);
   replace(bytes);
   EXPECT_FALSE(open_and_close());
