@@ -17,8 +17,15 @@ namespace {
 /// Where writing must go: the file a link points to, so that the rename does not replace the link.
 fs::path resolved(const fs::path& target) {
   std::error_code ignored;
-  const fs::path real = fs::weakly_canonical(target, ignored);
-  return ignored || real.empty() ? target : real;
+  fs::path real = fs::weakly_canonical(target, ignored);
+  if (ignored || real.empty()) return target;
+  constexpr int kLinksMost = 40;  // as the kernel's own limit
+  for (int links = 0; links < kLinksMost && fs::is_symlink(real, ignored); ++links) {  // to nothing, so far
+    const fs::path next = fs::weakly_canonical(real.parent_path() / fs::read_symlink(real, ignored), ignored);
+    if (next == real) break;
+    real = next;
+  }
+  return real;
 }
 
 fs::path temporary_beside(const fs::path& target) {
@@ -41,7 +48,12 @@ AtomicPath::AtomicPath(const fs::path& target) : target_(resolved(target)) {
   if (!fs::is_directory(folder, ignored))
     throw error(Exit::io, "cannot write {}: the folder {} does not exist; create it first", target.string(),
                 target.has_parent_path() ? target.parent_path().string() : folder.string());
+  if (fs::is_symlink(target_, ignored))
+    throw error(Exit::io, "cannot write {}: the link leads in a circle; name a file", target.string());
   const bool special = fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored);
+  if (special && !fs::is_character_file(target_, ignored))  // opening a pipe would wait for its reader
+    throw error(Exit::io, "cannot write {}: it is neither a file nor a device such as /dev/null; name a file",
+                target.string());
   temporary_ = special ? target_ : temporary_beside(target_);
 }
 
@@ -83,6 +95,8 @@ std::string read_file(const fs::path& file, std::size_t limit) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored))
     throw error(Exit::io, "cannot read {}: it is a folder; name a file in it", file.string());
+  if (fs::is_fifo(file, ignored) || fs::is_socket(file, ignored))  // opening would wait for its writer
+    throw error(Exit::io, "cannot read {}: it is a pipe; name a file", file.string());
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw error(Exit::io, "cannot read {}: {}", file.string(), reason());

@@ -10,11 +10,12 @@
 namespace weft {
 
 /// A name to write to first, beside the target and with its extension, so that other programs may write it.
-/// `commit` renames it to the target; without it the destructor removes it. A target that is no regular file
-/// (/dev/null, a pipe) is written directly; a link keeps pointing where it did.
+/// `commit` renames it to the target; without it the destructor removes it. A character device
+/// (/dev/null) is written directly; a link keeps pointing where it did, also to a file not there yet.
 class AtomicPath {
  public:
-  /// @throws Error(Exit::io) when the folder does not exist or the target is a folder
+  /// @throws Error(Exit::io) when the folder does not exist or the target is a folder, a pipe or
+  /// a circle of links
   explicit AtomicPath(const std::filesystem::path& target);
   ~AtomicPath();
   AtomicPath(const AtomicPath&) = delete;
@@ -49,7 +50,7 @@ class AtomicFile {
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
 /// The whole file as bytes, at most `limit` of them.
-/// @throws Error(Exit::io) when it cannot be read, is a folder, or is longer than `limit`
+/// @throws Error(Exit::io) when it cannot be read, is a folder or a pipe, or is longer than `limit`
 std::string read_file(const std::filesystem::path& file, std::size_t limit = std::size_t(1) << 30);
 
 }  // namespace weft

@@ -3,6 +3,7 @@
 #include "core/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -66,6 +67,28 @@ TEST_F(Files, WritesThroughALink) {
   write_file(folder_ / "link.txt", "new");
   EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
   EXPECT_EQ(read_file(folder_ / "real.txt"), "new");
+}
+
+TEST_F(Files, WritesWhereALinkPointsThoughNothingIsThereYet) {
+  fs::create_symlink("real.txt", folder_ / "link.txt");
+  write_file(folder_ / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
+  EXPECT_EQ(read_file(folder_ / "real.txt"), "new");
+  EXPECT_EQ(entry_count(), 2u);
+  fs::create_symlink("no/x.txt", folder_ / "astray.txt");
+  EXPECT_EQ(code_of([&] { write_file(folder_ / "astray.txt", "a"); }), Exit::io);
+  fs::create_symlink("circle.txt", folder_ / "circle.txt");
+  EXPECT_EQ(code_of([&] { write_file(folder_ / "circle.txt", "a"); }), Exit::io);
+  EXPECT_TRUE(fs::is_symlink(fs::symlink_status(folder_ / "circle.txt")));
+}
+
+// Opening a pipe waits until somebody opens its other end: it must not come to that.
+TEST_F(Files, RefusesAPipeInsteadOfWaiting) {
+  const fs::path pipe = folder_ / "pipe.csv";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(code_of([&] { write_file(pipe, "a"); }), Exit::io);
+  EXPECT_EQ(code_of([&] { read_file(pipe); }), Exit::io);
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST_F(Files, NeverReplacesADevice) {
