@@ -52,32 +52,69 @@ toml::table parsed_value(const Override& change, const Parameter* parameter) {
               change.place, in_quotes(change.value));
 }
 
-/// "spheres.1.radius" → item 1, appended when the list has one item so far.
+/// Adds the item when the list has just so many.
+void reach_item(Draft& draft, const Override& change, const Target& target) {
+  if (target.item < item_count(draft.scene, target.section)) return;
+  add_section(draft.scene, target.section);
+  draft.note_section(target, change.place);
+}
+
+void set_keys(Draft& draft, const Override& change, const Target& target, const toml::table& keys) {
+  for (const auto& [key, node] : keys) draft.set(target, key.str(), node, change.place);
+}
+
+/// "spheres.1.radius" → item 1, "spheres.1" too, and `key` what is left; appended when the list has one item
+/// so far.
 Target list_target(Draft& draft, const Override& change, std::string_view section, std::string_view& key) {
   const auto dot = key.find('.');
   const std::string_view digits = key.substr(0, dot);
   const std::size_t count = item_count(draft.scene, section);
   std::size_t item = 0;
   const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), item);
-  if (failure != std::errc{} || end != digits.data() + digits.size() || dot == std::string_view::npos)
-    throw error(Exit::usage, "{}: {} is a list; write {}.0.key=value for its first item", change.place,
-                section, section);
+  if (failure != std::errc{} || end != digits.data() + digits.size())
+    throw error(Exit::usage,
+                "{}: {} is a list; write {}.0.key=value for its first item, or {}=[{{key=value}}]",
+                change.place, section, section, section);
   if (item > count)
     throw error(Exit::usage,
                 "{}: {}.{} does not exist; there {} {}, so the index must be 0 to {} ({} adds one)",
                 change.place, section, digits, count == 1 ? "is" : "are", count, count, count);
-  if (item == count) {
-    add_section(draft.scene, section);
-    draft.note_section({section, item}, change.place);
-  }
-  key.remove_prefix(dot + 1);
+  key = dot == std::string_view::npos ? std::string_view() : key.substr(dot + 1);
   return {section, item};
+}
+
+/// "spheres.1={center=[0,1,0], radius=0.2}": several keys of one item.
+void apply_item(Draft& draft, const Override& change, const Target& target) {
+  const toml::table table = parsed_value(change, nullptr);
+  const toml::table* keys = table.get("value")->as_table();
+  if (keys == nullptr)
+    throw error(Exit::usage, "{}: {} is a list; write {}.{}.key=value, or {}.{}={{key=value}}", change.place,
+                target.section, target.section, target.item, target.section, target.item);
+  reach_item(draft, change, target);
+  set_keys(draft, change, target, *keys);
+}
+
+/// "spheres=[{center=[0,1,0], radius=0.2}]": the list anew.
+void apply_list(Draft& draft, const Override& change, std::string_view section) {
+  const toml::table table = parsed_value(change, nullptr);
+  const toml::array* items = table.get("value")->as_array();
+  if (items == nullptr || !(items->empty() || items->is_homogeneous<toml::table>()))
+    throw error(Exit::usage,
+                "{}: {} is a list; write {}.0.key=value for its first item, or {}=[{{key=value}}]",
+                change.place, section, section, section);
+  draft.clear_list(section);
+  for (std::size_t item = 0; item < items->size(); ++item) {
+    reach_item(draft, change, {section, item});
+    set_keys(draft, change, {section, item}, *items->get(item)->as_table());
+  }
 }
 
 void apply_to_section(Draft& draft, const Override& change, std::string_view section, std::string_view key) {
   Target target{section};
   if (is_list_section(section)) {
     target = list_target(draft, change, section, key);
+    if (key.empty()) return apply_item(draft, change, target);
+    reach_item(draft, change, target);
   } else if (!has_section(draft.scene, section)) {
     add_section(draft.scene, section);
     draft.note_section(target, change.place);
@@ -88,16 +125,17 @@ void apply_to_section(Draft& draft, const Override& change, std::string_view sec
 
 /// "gravity={}" adds a section with its defaults; "floor={height=0}" with some keys.
 void apply_table(Draft& draft, const Override& change, std::string_view section) {
+  if (is_list_section(section)) return apply_list(draft, change, section);
   const toml::table table = parsed_value(change, nullptr);
   const toml::table* keys = table.get("value")->as_table();
-  if (keys == nullptr || is_list_section(section))
+  if (keys == nullptr)
     throw error(Exit::usage, "{}: {} is a section; write {}=value", change.place, section,
                 full_key({section}, "key"));
   add_section(draft.scene, section);
   draft.note_section({section}, change.place);
   const toml::node* preset = section == "material" ? keys->get("preset") : nullptr;
   if (preset != nullptr && preset->is_string()) draft.take_preset(preset->as_string()->get(), change.place);
-  for (const auto& [key, node] : *keys) draft.set({section}, key.str(), node, change.place);
+  set_keys(draft, change, {section}, *keys);
 }
 
 }  // namespace

@@ -33,13 +33,17 @@ using enum ParameterKind;
 // or of the unit. 1e4 m keeps a float's last bit below a millimetre.
 constexpr double kFarthest_m = 1e4;
 
+// The solvers of src/solvers, which lies above this folder; its tests hold the two lists together.
+constexpr std::string_view kSolverNames =
+    "leapfrog|velocity_verlet|symplectic_euler|verlet|euler|trapezoid|rk4|xpbd";
+
 const Parameter kTable[] = {
     {.section = "",
      .key = "title",
      .kind = word,
      .about = "name shown in lists and in the window",
      .example = "title = \"Flag\"",
-     .default_text = "empty",
+     .default_text = "the file's name",
      .get = get_title,
      .set = set_title},
 
@@ -298,7 +302,8 @@ const Parameter kTable[] = {
                                                .key = "name",
                                                .kind = word,
                                                .about = "how time is stepped; `weft solvers` lists them",
-                                               .example = "\"leapfrog\""}),
+                                               .example = "\"leapfrog\"",
+                                               .words = kSolverNames}),
     {.section = "solver",
      .key = "substeps",
      .kind = integer,

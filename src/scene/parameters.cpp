@@ -79,10 +79,21 @@ bool in_range(const Parameter& p, double value) {
   return value >= p.minimum && value <= p.maximum;  // false for NaN
 }
 
+/// One line that every terminal shows: no control characters, neither ASCII's nor Unicode's (U+0080 to
+/// U+009F).
+bool is_printable(std::string_view text) {
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto byte = static_cast<unsigned char>(text[k]);
+    if (byte < 0x20 || byte == 0x7F) return false;
+    if (byte == 0xC2 && k + 1 < text.size() && static_cast<unsigned char>(text[k + 1]) < 0xA0) return false;
+  }
+  return true;
+}
+
 bool is_allowed(const Parameter& p, const ParameterValue& value) {
   using enum ParameterKind;
   if (const auto* text = std::get_if<std::string>(&value))
-    return (p.kind == word || !p.words.empty()) && is_listed(p.words, *text);
+    return (p.kind == word || !p.words.empty()) && is_listed(p.words, *text) && is_printable(*text);
   if (const auto* number_value = std::get_if<double>(&value)) {
     if (p.kind != number && p.kind != integer) return false;
     return in_range(p, *number_value) && (p.kind != integer || *number_value == std::floor(*number_value));
@@ -140,7 +151,8 @@ std::string default_text(const Parameter& parameter) {
 
 std::string rule_text(const Parameter& p) {
   using enum ParameterKind;
-  if (p.kind == word) return p.words.empty() ? "a word in quotes" : words_text(p.words);
+  if (p.kind == word)
+    return p.words.empty() ? "a word in quotes, printable and on one line" : words_text(p.words);
   std::string text = range_text(p);
   if (p.kind == integer) text += ", a whole number";
   if (p.kind == vec2) text = "two numbers, each " + text;

@@ -81,6 +81,7 @@ LoadedScene parse_scene(std::string_view text, const std::string& name, const Sc
     if (const auto preset = preset_override(override_text))
       draft.take_preset(*preset, "--set " + override_text);
   for (const std::string& override_text : overrides.set) apply_override(draft, override_text);
+  if (draft.scene.title.empty()) draft.scene.title = fs::path(name).stem().string();
   check_scene(draft);
   return {draft.scene, scene_warnings(draft)};
 }

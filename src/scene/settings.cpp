@@ -1,6 +1,7 @@
 // Checking one key against its row of the parameter table and writing it into the scene.
 #include "scene/settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -26,6 +27,7 @@ std::optional<double> number_of(const toml::node* node) {
 /// The node as the parameter's kind of value, or nothing when its type does not fit.
 std::optional<ParameterValue> value_of(const Parameter& parameter, const toml::node& node) {
   if (const auto* text = node.as_string()) return ParameterValue(text->get());
+  if (parameter.kind == ParameterKind::integer && node.is_floating_point()) return std::nullopt;
   if (const auto number = number_of(&node)) return ParameterValue(*number);
   const toml::array* list = node.as_array();
   const std::size_t length = parameter.kind == ParameterKind::vec2 ? 2 : 3;
@@ -38,6 +40,28 @@ std::optional<ParameterValue> value_of(const Parameter& parameter, const toml::n
   }
   if (length == 2) return ParameterValue(glm::dvec2(numbers.x, numbers.y));
   return ParameterValue(numbers);
+}
+
+/// The value in a refusal: 8.0 for a whole number is not shown as the 8 that would be right.
+std::string refused_text(const Parameter& parameter, const toml::node& node) {
+  const std::string text = node_text(node);
+  const bool point_lost = parameter.kind == ParameterKind::integer && node.is_floating_point() &&
+                          text.find_first_not_of("-0123456789") == std::string::npos;
+  return point_lost ? text + ".0" : text;
+}
+
+/// "; did you mean X?" where a word is nearly one of those allowed.
+std::string nearest_word(const Parameter& parameter, const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr || parameter.words.empty()) return {};
+  std::vector<std::string_view> words;
+  for (std::string_view rest = parameter.words; !rest.empty();) {
+    const std::size_t bar = std::min(rest.find('|'), rest.size());
+    words.push_back(rest.substr(0, bar));
+    rest.remove_prefix(std::min(bar + 1, rest.size()));
+  }
+  const std::string_view nearest = nearest_name(text->get(), words);
+  return nearest.empty() ? std::string() : fmt::format("; did you mean {}?", nearest);
 }
 
 std::vector<std::string_view> keys_of(std::string_view section) {
@@ -88,13 +112,20 @@ void Draft::set(const Target& target, std::string_view key, const toml::node& no
   const auto wrong_type = ParameterValue(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const std::string rule = broken_rule(*parameter, value.value_or(wrong_type));
   if (!rule.empty())
-    throw error(Exit::usage, "{}: {} is {}; {}", place, full_key(target, key), node_text(node), rule);
+    throw error(Exit::usage, "{}: {} is {}; {}{}", place, full_key(target, key),
+                refused_text(*parameter, node), rule, nearest_word(*parameter, node));
   parameter->set(scene, target.item, *value);
   places_[key_id(target, key)] = place;
 }
 
 void Draft::note_section(const Target& target, const Place& place) {
   places_.emplace(key_id(target, ""), place);
+}
+
+void Draft::clear_list(std::string_view section) {
+  remove_section(scene, section);
+  std::erase_if(places_,
+                [&](const auto& entry) { return entry.first.starts_with(fmt::format("{}[", section)); });
 }
 
 Place Draft::place_of(const Target& target, std::string_view key) const {

@@ -38,6 +38,9 @@ class Draft {
   /// Notes that a section, or an item of a list, begins at `place`.
   void note_section(const Target& target, const Place& place);
 
+  /// Empties a list section and forgets where its items stood.
+  void clear_list(std::string_view section);
+
   /// The place of a key; of its section when the key is not given; of the file when neither is.
   Place place_of(const Target& target, std::string_view key = {}) const;
 

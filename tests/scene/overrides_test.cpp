@@ -22,7 +22,7 @@ TEST(Overrides, ChangeKeysInOrder) {
       read(kScene, {"material.density=0.3", "cloth.resolution = 40", "material.density=0.4"}).scene;
   EXPECT_EQ(scene.material.density_kg_m2, 0.4);
   EXPECT_EQ(scene.cloth.resolution, 40u);
-  EXPECT_EQ(read(kScene, {"cloth.resolution=4e1"}).scene.cloth.resolution, 40u);
+  expect_refused(kScene, {"cloth.resolution is 40.0; ", "a whole number"}, {"cloth.resolution=4e1"});
   EXPECT_EQ(read(kScene, {"cloth.center=[1, 2.5, 3]"}).scene.cloth.center_m, glm::dvec3(1.0, 2.5, 3.0));
 }
 
@@ -53,6 +53,21 @@ TEST(Overrides, ReachListItemsAndAppend) {
   expect_refused(kScene, {"pins is a list"}, {"pins.0=3"});
   expect_refused(kScene, {"pins is a list"}, {"pins.-1.at=[0,0]"});
   expect_refused(kScene, {"pins is a list"}, {"pins.99999999999999999999999.at=[0,0]"});
+}
+
+TEST(Overrides, SetItemsAndListsWhole) {
+  const Scene added = read(kScene, {"spheres.1={center=[0,1,0], radius=0.2}"}).scene;
+  ASSERT_EQ(added.spheres.size(), 2u);
+  EXPECT_EQ(added.spheres[1].center_m.y, 1.0);
+  EXPECT_EQ(read(kScene, {"spheres.0={radius=0.5}"}).scene.spheres.at(0).radius_m, 0.5);
+  const Scene anew = read(kScene, {"spheres=[{center=[1,0,0], radius=1}, {center=[2,0,0], radius=2}]"}).scene;
+  ASSERT_EQ(anew.spheres.size(), 2u);
+  EXPECT_EQ(anew.spheres[1].radius_m, 2.0);
+  EXPECT_TRUE(read(kScene, {"pins=[]"}).scene.pins.empty());
+  expect_refused(kScene, {"spheres.0.radius is missing"}, {"spheres=[{center=[0,0,0]}]"});  // not the file's
+  expect_refused(kScene, {"did you mean radius?"}, {"spheres.0={radus=1}"});
+  expect_refused(kScene, {"there is 1", "0 to 1"}, {"spheres.2={radius=1}"});
+  expect_refused(kScene, {"spheres is a list"}, {"spheres=[1, 2]"});
 }
 
 TEST(Overrides, NameThemselvesAsThePlace) {

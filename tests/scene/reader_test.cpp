@@ -183,6 +183,30 @@ TEST(Reader, OtherLettersMayStandInTextAndComments) {
   EXPECT_EQ(read("title = \"\"\"a\"\"é\\\"\"\"\"  # µ\n[cloth]\n").scene.title, "a\"\"é\"");
 }
 
+TEST(Reader, ASceneWithoutATitleHasItsFilesName) {
+  EXPECT_EQ(read("[cloth]\n").scene.title, "scene");
+  EXPECT_EQ(read("title = \"\"\n[cloth]\n").scene.title, "scene");
+}
+
+TEST(Reader, ATitleIsOnePrintableLine) {
+  for (const char* text : {"a\\nb", "a\\tb", "\\u001b[2J", "\\u007f", "\\u009b1m"})
+    expect_refused(fmt::format("title = \"{}\"\n[cloth]\n", text), {"scene.toml:1: title is", "printable"});
+  EXPECT_EQ(read("title = \"é\\u00a0°\"\n[cloth]\n").scene.title, "é\u00a0°");
+}
+
+TEST(Reader, AWholeNumberHasNoPoint) {
+  expect_refused("[cloth]\nresolution = 8.0\n",
+                 {"scene.toml:2: cloth.resolution is 8.0; ", "a whole number"});
+  expect_refused("[cloth]\n[solver]\nsubsteps = 1e2\n", {"solver.substeps is 100.0; "});
+}
+
+TEST(Reader, AWrongWordHasItsLineAndTheNearestWord) {
+  expect_refused("[cloth]\n[solver]\nname = \"leepfrog\"\n",
+                 {"scene.toml:3: solver.name is \"leepfrog\"", "\"rk4\"", "did you mean leapfrog?"});
+  expect_refused("[cloth]\n[solver]\nprecision = \"f23\"\n",
+                 {"scene.toml:3: solver.precision", "did you mean"});
+}
+
 TEST(Reader, RequiredKeysAreAskedFor) {
   expect_refused("[cloth]\n[air]\n", {"scene.toml:2: air.drag is missing", "0.1"});
   expect_refused("[cloth]\n[air]\ndrag=1\n[wind]\n", {"scene.toml:4: wind.velocity is missing"});

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "scene/parameters.h"
 #include "solvers/solver.h"
 #include "support/cloth.h"
 
@@ -67,6 +68,13 @@ Scene reference_cloth(std::uint32_t resolution, double damping_s) {
   scene.material.bend_n_m = 2e-5;
   scene.material.damping_s = damping_s;
   return scene;
+}
+
+// The scene reader refuses other names with file and line; it cannot see the solvers, so it has their names.
+TEST(Solvers, AreTheNamesThatASceneMayGive) {
+  std::string names;
+  for (const Solver* solver : solvers()) names += (names.empty() ? "" : "|") + std::string(solver->name);
+  EXPECT_EQ(find_parameter("solver", "name")->words, names);
 }
 
 // docs/physics.md: Y = 1000, ρ = 0.2, 1 m, ζ = 0.1, B = 2e-5.
