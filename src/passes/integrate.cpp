@@ -73,9 +73,6 @@ const Pass integrate{
     .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, false>,
     .mirror_f64 = mirror<double, false>,
-    // A reciprocal root that is off by 4 ulp moves a stiff substep by about 1e-6 of a cell; the velocity that
-    // goes with it is that over the step, hence the absolute part.
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,
     .compensated = &integrate_compensated,
@@ -91,9 +88,6 @@ const Pass integrate_compensated{
     .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, true>,
     .mirror_f64 = mirror<double, true>,
-    // A reciprocal root that is off by 4 ulp moves a stiff substep by about 1e-6 of a cell; the velocity that
-    // goes with it is that over the step, hence the absolute part.
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,
 };

@@ -67,7 +67,6 @@ const Pass normals{
     .spring_evaluations = [](const Model&) { return std::uint64_t{0}; },
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 2e-6, .absolute = 2e-6},  // unit vectors; one root, one division, one product
     .swaps_state = false,
 };
 

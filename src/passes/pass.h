@@ -1,5 +1,5 @@
-// A pass: its declaration (name, where it runs, which constants, what error is allowed) and its
-// independent CPU mirror. Its shader is shaders/passes/<name>.comp; bindings are read from the SPIR-V.
+// A pass: its declaration (name, where it runs, which constants) and its independent
+// CPU mirror. Its shader is shaders/passes/<name>.comp; bindings are read from the SPIR-V.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -27,12 +27,6 @@ struct Constant {
 };
 using Constants = std::vector<Constant>;
 
-/// How far a device without correctly rounded division and square root may stray, for one execution.
-struct Tolerance {
-  double relative;  ///< to the largest magnitude in the buffer
-  double absolute;
-};
-
 /// One row of a frame's schedule in double: what dispatch r does. (kick, drift) are data.
 struct KickDrift {
   double kick_s = 0, drift_s = 0;
@@ -59,7 +53,6 @@ struct Pass {
   std::uint64_t (*spring_evaluations)(const Model&);  ///< of one dispatch
   void (*mirror_f32)(const MirrorContext&, HostBuffers<float>&);
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
-  Tolerance tolerance;
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
   bool marches = false;  ///< one invocation may take several rows: constant 10 of its shader says how many
   const Pass* compensated = nullptr;  ///< the same with compensated summation of positions (f32k)

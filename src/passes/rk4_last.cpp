@@ -37,7 +37,6 @@ const Pass rk4_last{
     .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,
 };

@@ -50,7 +50,6 @@ const Pass velocity_verlet_step{
     .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, false>,
     .mirror_f64 = mirror<double, false>,
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,
     .compensated = &velocity_verlet_compensated,
@@ -66,7 +65,6 @@ const Pass velocity_verlet_compensated{
     .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, true>,
     .mirror_f64 = mirror<double, true>,
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
     .marches = true,
 };

@@ -44,7 +44,6 @@ const Pass xpbd_finish{
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 2e-6, .absolute = 5e-5},
     .swaps_state = true,
 };
 

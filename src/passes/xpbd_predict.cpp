@@ -38,7 +38,6 @@ const Pass xpbd_predict{
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 1e-6, .absolute = 0},
 };
 
 }  // namespace weft

@@ -140,7 +140,6 @@ const Pass xpbd_spring{
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .tolerance = {.relative = 1e-6, .absolute = 1e-8},  // of a move: one ulp of a cell's length
     .item_domain = item_domain,
     .item_spring_evaluations = item_spring_evaluations,
 };

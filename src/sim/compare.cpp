@@ -16,6 +16,33 @@ std::int64_t ordered(float value) {
   return (bits >> 31) != 0 ? -magnitude : magnitude;
 }
 
+template <class T>
+Difference compare(std::span<const glm::vec4> got, std::span<const glm::vec<4, T>> expected) {
+  Difference result;
+  double squares = 0;
+  glm::dvec4 sum(0.0);
+  for (std::size_t p = 0; p < expected.size(); ++p)
+    for (int c = 0; c < 4; ++c) {
+      const float a = got[p][c];
+      const T b = expected[p][c];
+      if (!std::isfinite(a) || !std::isfinite(b)) {
+        result.finite = false;
+        continue;
+      }
+      const double apart = double{a} - double{b};
+      result.max_abs = std::max(result.max_abs, std::abs(apart));
+      result.magnitude = std::max(result.magnitude, std::abs(double{b}));
+      result.max_ulp = std::max(result.max_ulp, ulp_between(a, static_cast<float>(b)));
+      squares += apart * apart;
+      sum[c] += apart;
+    }
+  if (expected.empty()) return result;
+  const double count = static_cast<double>(expected.size());
+  result.rms = std::sqrt(squares / (4.0 * count));
+  for (int c = 0; c < 4; ++c) result.bias = std::max(result.bias, std::abs(sum[c]) / count);
+  return result;
+}
+
 }  // namespace
 
 std::uint64_t ulp_between(float a, float b) {
@@ -23,23 +50,11 @@ std::uint64_t ulp_between(float a, float b) {
 }
 
 Difference difference(std::span<const glm::vec4> got, std::span<const glm::vec4> expected) {
-  Difference result;
-  double sum = 0;
-  for (std::size_t p = 0; p < expected.size(); ++p)
-    for (int c = 0; c < 4; ++c) {
-      const float a = got[p][c], b = expected[p][c];
-      if (!std::isfinite(a) || !std::isfinite(b)) {
-        result.finite = false;
-        continue;
-      }
-      const double apart = std::abs(double{a} - double{b});
-      result.max_abs = std::max(result.max_abs, apart);
-      result.magnitude = std::max(result.magnitude, std::abs(double{b}));
-      result.max_ulp = std::max(result.max_ulp, ulp_between(a, b));
-      sum += apart * apart;
-    }
-  if (!expected.empty()) result.rms = std::sqrt(sum / (4.0 * static_cast<double>(expected.size())));
-  return result;
+  return compare<float>(got, expected);
+}
+
+Difference difference(std::span<const glm::vec4> got, std::span<const glm::dvec4> expected) {
+  return compare<double>(got, expected);
 }
 
 }  // namespace weft

@@ -8,6 +8,7 @@ namespace weft {
 
 struct Difference {
   double max_abs = 0, rms = 0;
+  double bias = 0;            ///< largest component of the mean difference: what does not average out
   double magnitude = 0;       ///< largest absolute value expected
   std::uint64_t max_ulp = 0;  ///< floats between the two; −0 and +0 agree
   bool finite = true;         ///< whether every number on both sides is
@@ -15,6 +16,8 @@ struct Difference {
 
 /// @param got, expected  the same number of vectors; all four components count
 Difference difference(std::span<const glm::vec4> got, std::span<const glm::vec4> expected);
+/// The same against double; max_ulp counts floats to the nearest one.
+Difference difference(std::span<const glm::vec4> got, std::span<const glm::dvec4> expected);
 
 /// Floats from a to b, counting each step to the next representable number; 0 for −0 and +0.
 std::uint64_t ulp_between(float a, float b);
