@@ -171,7 +171,7 @@ class Diagram {
 
   /// Words on a paper-coloured ground, so that no line runs through them.
   void note(double x, double y, const std::string& words, const Words& look) {
-    const double width = 0.6 * look.size * static_cast<double>(words.size());
+    const double width = 0.55 * look.size * static_cast<double>(words.size());
     svg_.rectangle(look.anchor == "end" ? x - width : x - 3, y - 0.85 * look.size, width + 3,
                    1.15 * look.size, {.fill = "#ffffff", .opacity = 0.75});
     svg_.text(x, y, words, look);
@@ -179,7 +179,7 @@ class Diagram {
 
   void draw_floors() {
     draw_floor(cloth_.twin_m, "#555555", "twins 1e-7 m apart drift this far", true);
-    draw_floor(cloth_.float_floor_m, "#8a4b08", "float32 against itself at half the step", false);
+    draw_floor(cloth_.float_floor_m, "#8a4b08", "leapfrog in float32 against itself at half the step", false);
     draw_floor(cloth_.agreement_m, "#7a0019", "the reference is known to this", true);
     if (!(cloth_.discretisation_m > 0.0)) return;
     const double y = y_.at(cloth_.discretisation_m);

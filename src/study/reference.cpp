@@ -127,8 +127,6 @@ double trajectory_bytes(const Model& model, double time_s) {
 
 }  // namespace
 
-double Reference::floor_m() const { return std::max(agreement_m, ending == Ending::no_gain ? twin_m : 0.0); }
-
 State perturbed_start(const Model& model, double distance_m) {
   State state = start_state(model);
   std::uint64_t sequence = 0x9e3779b97f4a7c15u;

@@ -32,9 +32,6 @@ struct Reference {
   std::uint32_t fine_nx = 0;     ///< that resolution
   double allowed_s = 0;          ///< ReferenceOptions::seconds it was made with
   Trajectory frames;
-
-  /// Below this a comparison means nothing: the reference itself is not known better.
-  double floor_m() const;
 };
 
 inline constexpr double kTwinStart_m = 1e-7;  ///< RMS distance between the twins' starts

@@ -108,7 +108,7 @@ class Sweep {
         records_(options, bench),
         seconds_(options.quick ? std::min(options.seconds, kQuickSeconds) : options.seconds) {
     study_.title = scene.title;
-    study_.source = scene.source;
+    study_.source = std::filesystem::path(scene.source).filename().string();
     study_.device = bench.label;
     study_.command = options.command;
     study_.time_s = options.time_s;
@@ -177,14 +177,14 @@ class Sweep {
     return tasks;
   }
 
-  /// Seconds that a setting will take at least: one run and its warm-up, from a point of the same solver.
+  /// Seconds that a setting will take: two runs and a warm-up, from a point of the same solver.
   double expected_s(const Task& task) const {
     const std::uint32_t nx = parts_[task.part].model.grid.nx;
     for (const Point& known : study_.points) {
       const bool alike = known.nx == nx && known.setting.solver == task.setting.solver &&
                          known.setting.precision == task.setting.precision;
       if (alike)
-        return 1.2e-3 * known.ms_per_s * options_.time_s * task.setting.substeps / known.setting.substeps;
+        return 2.2e-3 * known.ms_per_s * options_.time_s * task.setting.substeps / known.setting.substeps;
     }
     return 0.0;
   }

@@ -70,7 +70,7 @@ TEST(Svg, NamesWhatItShowsAndStaysInsideItsFrame) {
   const std::string svg = work_precision_svg(sample(), 9, CostAxis::device_time);
   for (const char* words :
        {"a &lt; b &amp; &quot;c&quot;", "a device", "2026-01-31", "leapfrog f32", "diverged", "real time",
-        "ms per simulated second", "twins 1e-7 m apart", "float32", "17 particles"})
+        "ms per simulated second", "twins 1e-7 m apart", "leapfrog in float32", "17 particles"})
     EXPECT_NE(svg.find(words), std::string::npos) << words;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
