@@ -53,11 +53,12 @@ class Film {
     output_ = open_output(name_, o.picture.width, o.picture.height, rate_);
   }
 
-  /// @param time_s  simulated so far; a picture is drawn once it reaches the next one's time
-  void see(OffscreenRenderer& renderer, const Machine& machine, const State& state) {
-    if (state.time_s < due_s_ - 1e-6 * frame_s_) return;
-    output_->add(machine.on_gpu != nullptr ? renderer.draw(machine.on_gpu->draw_buffers(), state.time_s)
-                                           : renderer.draw(state));
+  /// Draws a picture once the simulated time reaches the next one's.
+  void see(OffscreenRenderer& renderer, const Machine& machine) {
+    const double time_s = machine.simulation->time_s();
+    if (time_s < due_s_ - 1e-6 * frame_s_) return;
+    output_->add(machine.on_gpu != nullptr ? renderer.draw(machine.on_gpu->draw_buffers(), time_s)
+                                           : renderer.draw(machine.simulation->read()));
     ++pictures_;
     due_s_ = static_cast<double>(pictures_) / rate_;
   }
@@ -87,22 +88,26 @@ Outcome film_scene(const Options& o, const Machine& machine, OffscreenRenderer& 
   const Scene& scene = simulation.model().scene;
   Outcome outcome;
   Progress progress(scene.title.empty() ? "rendering" : scene.title, o.quiet);
-  const auto look = [&](std::uint64_t frame) {
-    outcome.state = simulation.read();
-    require_finite(simulation.model(), outcome.state, frame);
-    film.see(renderer, machine, outcome.state);
+  std::uint64_t looked = 0;
+  const auto look = [&](std::uint64_t frame, bool last) {
+    if (frame % look_every(machine) == 0 || last) {
+      outcome.state = simulation.read();
+      require_finite(simulation.model(), outcome.state, frame, looked);
+      looked = frame;
+    }
+    film.see(renderer, machine);
   };
   const auto began = std::chrono::steady_clock::now();
-  look(0);
+  look(0, false);
   run_for(simulation, run_s, [&](std::uint64_t done, std::uint64_t total, const FrameStats& stats) {
     outcome.spring_evaluations += stats.spring_evaluations;
-    look(done);
+    look(done, done == total || interrupted());
     progress.show(done, total);
     return !interrupted();
   });
   outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (interrupted())
-    throw error(Exit::interrupted, "interrupted at t = {:.6g} s; {} is not complete", outcome.state.time_s,
+    throw error(Exit::interrupted, "interrupted at t = {:.6g} s; {} is not complete", simulation.time_s(),
                 o.out->string());
   return outcome;
 }

@@ -5,6 +5,7 @@
 
 #include "cli/text.h"
 #include "core/error.h"
+#include "gpu/log.h"
 #include "gpu/shader.h"
 #include "model/measures.h"
 
@@ -66,6 +67,7 @@ std::unique_ptr<gpu::Device> open_device(const Options& o) {
     throw Error(Exit::no_device,
                 "--device native: this version has no native backend; use --device cpu for the "
                 "reference, or a device of `weft devices`");
+  gpu::set_quiet(o.quiet);
   gpu::set_shader_dir(o.shaders);
   return std::make_unique<gpu::Device>(device_options(o));
 }
@@ -97,14 +99,19 @@ void report_validation(const gpu::Device* device) {
               device->validation_messages().size());
 }
 
-void require_finite(const Model& model, const State& state, std::uint64_t frame) {
+std::uint64_t look_every(const Machine& machine) { return machine.on_gpu != nullptr ? 60 : 1; }
+
+void require_finite(const Model& model, const State& state, std::uint64_t frame, std::uint64_t looked) {
   std::uint32_t particle = 0;
   if (all_finite(state, &particle)) return;
+  const std::string since =
+      looked + 1 < frame ? fmt::format("between frames {} and {}; ", looked + 1, frame) : std::string();
   throw error(
       Exit::diverged,
-      "{}: the simulation diverged: after frame {} (t = {:.6g} s) particle {} (i = {}, j = {}) is not "
+      "{}: the simulation diverged: {}after frame {} (t = {:.6g} s) particle {} (i = {}, j = {}) is not "
       "finite; use more substeps (--substeps auto follows the stability limit)",
-      model.scene.source, frame, state.time_s, particle, particle % model.grid.nx, particle / model.grid.nx);
+      model.scene.source, since, frame, state.time_s, particle, particle % model.grid.nx,
+      particle / model.grid.nx);
 }
 
 void note(const Options& o, const std::string& text) {

@@ -34,19 +34,25 @@ double run_time_s(const Options& o, const Scene& scene) {
   return run_s;
 }
 
-/// Called after every frame: looks for divergence, feeds the writer, makes the scene's checks when due.
+/// Called after every frame: reads the state where somebody wants it, looks for divergence, feeds the writer,
+/// makes the scene's checks when due.
 class FrameWatch {
  public:
-  FrameWatch(const Options& o, const Setup& setup, double run_s, StateOutput* output)
+  FrameWatch(const Options& o, const Setup& setup, double run_s, StateOutput* output, std::uint64_t every)
       : check_(o.check),
         model_(setup.model),
         output_(output),
+        every_(output != nullptr && output->takes_every_frame() ? 1 : every),
         check_s_(expect_time_s(setup.scene(), run_s) - 1e-6 * setup.scene().solver.frame_s) {}
 
-  void see(State state, std::uint64_t frame, Outcome& outcome) {
-    require_finite(model_, state, frame);
+  void see(Simulation& simulation, std::uint64_t frame, bool last, Outcome& outcome) {
+    const bool check_due = check_ && !checked_ && simulation.time_s() >= check_s_;
+    if (frame % every_ != 0 && !last && !check_due) return;
+    State state = simulation.read();
+    require_finite(model_, state, frame, looked_);
+    looked_ = frame;
     if (output_ != nullptr) output_->frame(state);
-    if (check_ && !checked_ && state.time_s >= check_s_) {
+    if (check_due) {
       outcome.verdicts = check_expectations(model_, state);
       checked_ = true;
     }
@@ -57,6 +63,7 @@ class FrameWatch {
   bool check_, checked_ = false;
   const Model& model_;
   StateOutput* output_;
+  std::uint64_t every_, looked_ = 0;  ///< frames from look to look; the last look
   double check_s_;
 };
 
@@ -64,18 +71,18 @@ Outcome simulate_scene(const Options& o, Simulation& simulation, double run_s, F
   Outcome outcome;
   const std::string& title = simulation.model().scene.title;
   Progress progress(title.empty() ? "simulating" : title, o.quiet);
-  watch.see(simulation.read(), 0, outcome);
+  watch.see(simulation, 0, false, outcome);
   const auto began = std::chrono::steady_clock::now();
   run_for(simulation, run_s, [&](std::uint64_t done, std::uint64_t total, const FrameStats& stats) {
     if (done == 1) outcome.frame = stats;
     outcome.spring_evaluations += stats.spring_evaluations;
-    watch.see(simulation.read(), done, outcome);
+    watch.see(simulation, done, done == total || interrupted(), outcome);
     progress.show(done, total);
     return !interrupted();
   });
   outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (interrupted())
-    throw error(Exit::interrupted, "interrupted at t = {:.6g} s; nothing was written", outcome.state.time_s);
+    throw error(Exit::interrupted, "interrupted at t = {:.6g} s; nothing was written", simulation.time_s());
   return outcome;
 }
 
@@ -99,7 +106,7 @@ Exit run(const Options& asked) {
   stop_between_frames();
   if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model);
   Machine machine = start(o, setup);
-  FrameWatch watch(o, setup, run_s, output.get());
+  FrameWatch watch(o, setup, run_s, output.get(), look_every(machine));
   const Outcome outcome = simulate_scene(o, *machine.simulation, run_s, watch);
   report_validation(machine.device.get());
   if (output) output->finish(outcome.state);

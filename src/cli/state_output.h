@@ -17,6 +17,8 @@ class StateOutput {
  public:
   /// @throws Error(Exit::usage) for an unknown extension, Error(Exit::io) when the file cannot be written
   StateOutput(const std::filesystem::path& target, const Model& model);
+  /// Whether frame() must be called for every frame; otherwise finish() has all it needs.
+  bool takes_every_frame() const { return cache_ != nullptr; }
   void frame(const State&);   ///< the start and every frame after it
   void finish(const State&);  ///< the file appears under its name
 

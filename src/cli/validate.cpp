@@ -5,17 +5,20 @@
 #include "cli/progress.h"
 #include "cli/setup.h"
 #include "cli/table.h"
+#include "core/text.h"
+#include "sim/perturb.h"
 
 namespace weft::cli {
 namespace {
 
 Table table_of(const std::vector<ValidationReport>& reports) {
-  Table table{
-      {"scene", "check", "state", "buffer", "max_abs", "rms", "max_ulp", "tolerance", "ok", "verdict"}, {}};
+  Table table{{"scene", "check", "state", "buffer", "max_abs", "rms", "bias", "max_ulp", "tolerance", "ok",
+               "verdict"},
+              {}};
   for (const ValidationReport& report : reports)
     for (const ValidationRow& row : report.rows)
-      table.rows.push_back({report.scene, row.check, row.state, row.buffer, row.max_abs, row.rms, row.max_ulp,
-                            row.tolerance, row.ok, row.verdict});
+      table.rows.push_back({report.scene, row.check, row.state, row.buffer, row.max_abs, row.rms, row.bias,
+                            row.max_ulp, row.tolerance, row.ok, row.verdict});
   return table;
 }
 
@@ -66,6 +69,21 @@ std::vector<std::string> scenes_asked_for(const Options& o) {
   return names;
 }
 
+/// A constant that no scene has on would falsify nothing, and the comparison would pass for the wrong reason.
+/// @throws Error(Exit::usage)
+void require_effect(const Options& o, const std::vector<Setup>& setups) {
+  if (o.perturb.empty()) return;
+  for (const Setup& setup : setups) {
+    const Plan plan = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
+    if (Perturbation(o.perturb, plan).active()) return;
+  }
+  throw error(
+      Exit::usage,
+      "--perturb is {}; none of the scenes validated has that effect, so that nothing would be falsified "
+      "(add a scene that has it, or leave the scenes away to validate all)",
+      in_quotes(o.perturb));
+}
+
 Exit run(const Options& o) {
   if (o.on_cpu())
     throw Error(
@@ -75,6 +93,7 @@ Exit run(const Options& o) {
   const std::vector<std::string> names = scenes_asked_for(o);
   std::vector<Setup> setups;
   for (const std::string& name : names) setups.push_back(set_up(o, name));
+  require_effect(o, setups);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   const ValidationOptions options{.perturb = o.perturb};
   std::vector<ValidationReport> reports;
@@ -94,7 +113,16 @@ Exit run(const Options& o) {
 
 void add_options(CLI::App& app, Options& o) {
   add_scenes(app, o);
-  app.add_option("--perturb", o.perturb, "falsify one constant of one pass on the device, to see this fail")
+  app.add_option_function<std::string>(
+         "--perturb",
+         [&o](const std::string& text) {
+           if (text.empty())
+             throw Error(
+                 Exit::usage,
+                 "--perturb is empty; it must be PASS.CONSTANT (for example --perturb integrate.gravity)");
+           o.perturb = text;
+         },
+         "falsify one constant of one pass on the device, to see this fail")
       ->type_name("PASS.CONSTANT");
 }
 

@@ -13,6 +13,8 @@ namespace {
 Exit run(const Options& o) {
   refuse_second_scene(o);
   ViewerOptions window;
+  if (!o.scenes.empty())
+    find_scene(o.scenes.front());  // a slip of the keyboard is said without a display, too
   if (!o.scenes.empty()) window.scene = o.scenes.front();
   window.overrides = overrides_of(o);
   window.device = o.device;

@@ -106,6 +106,14 @@ TEST(Validate, AFalsifiedConstantIsExitFive) {
   EXPECT_CODE(weft(on_device("validate", {"--perturb", "integrate.nothing"})), 2);
 }
 
+// Nothing would be falsified, and the comparison would pass for the wrong reason.
+TEST(Validate, AnEffectThatNoSceneHasCannotBeFalsified) {
+  const Result result = weft({"validate", "1", "--perturb", "integrate.spheres"});
+  EXPECT_CODE(result, 2);
+  EXPECT_SAYS(result.err, "integrate.spheres");
+  EXPECT_CODE(weft({"validate", "1", "--perturb", ""}), 2);
+}
+
 TEST(Validate, RefusesTheReferenceItself) {
   EXPECT_CODE(weft({"validate", "1", "--device", "cpu"}), 2);
   EXPECT_CODE(weft({"bench", "1", "--device", "cpu"}), 2);

@@ -1,5 +1,6 @@
 // `weft simulate`: its summary in each format, its files, its times, its checks, and how it fails.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -230,6 +231,16 @@ TEST(Simulate, BadScenesAreExitTwoWithTheirLine) {
   EXPECT_CODE(weft({"simulate", scratch.path("empty.toml"), "--device", "cpu"}), 2);
   EXPECT_CODE(weft({"simulate", scratch.path("missing.toml"), "--device", "cpu"}), 2);
   EXPECT_CODE(weft({"simulate", scratch.folder().string(), "--device", "cpu"}), 2);
+}
+
+// Opening a pipe waits for its other end; that a run cannot be stopped while it does is the reason to refuse.
+TEST(Simulate, PipesAreRefusedAndNotWaitedFor) {
+  const Scratch scratch;
+  const std::string out = scratch.path("out.csv"), scene = scratch.path("scene.toml");
+  ASSERT_EQ(mkfifo(out.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(scene.c_str(), 0600), 0);
+  EXPECT_CODE(weft({"simulate", "4", "--device", "cpu", "--time", "0", "--out", out}), 6);
+  EXPECT_CODE(weft({"simulate", scene, "--device", "cpu", "--time", "0"}), 2);
 }
 
 TEST(Simulate, WarningsAreOnStderrUnlessQuiet) {

@@ -117,6 +117,12 @@ TEST(Usage, OptionsOfLaterVersionsAreNotAcceptedSilently) {
   expect_refused({"simulate", "1", "--error", "1e-3"}, {"--error"});
 }
 
+// A mistyped scene is said before a window is asked for.
+TEST(Usage, AnUnknownSceneIsExitTwoWithoutADisplay) {
+  expect_refused({"view", "nosuchscene"}, {"nosuchscene"});
+  expect_refused({"nosuchscene"}, {"nosuchscene"});
+}
+
 // Without a display the window cannot open: exit 3 where the viewer is built, else exit 2; both say what to
 // run.
 TEST(Usage, ViewWithoutAWindowSaysToRender) {

@@ -14,7 +14,7 @@ namespace {
 
 class SolverValidateTest : public GpuTest {};
 
-// Software devices must be exact, others within each pass's tolerance; 20 substeps and two frames in
+// Software devices must be exact, others within what float loses; 20 substeps and two frames in
 // lockstep.
 TEST_F(SolverValidateTest, every_solver_equals_its_mirrors) {
   for (const Solver* solver : solvers()) {
