@@ -19,7 +19,7 @@
   ROW(sum_position, 11, vec4, "Runge-Kutta: m, the weighted stages so far; w unused")            \
   ROW(sum_velocity, 12, vec4, "Runge-Kutta: m/s, the weighted stages so far; w unused")          \
   ROW(constraints, 13, vec4, "XPBD: rest [m], compliance [m/N], damping time [s] of each kind")  \
-  ROW(compensation, 14, vec4, "f32k: m, what position has too much; w unused")                   \
+  ROW(compensation, 14, vec4, "f32k: m and m/s that position, then velocity, have too much")      \
   ROW(band_scratch, 15, vec4, "kernel bands: m and m/s of a band's rows between two substeps")   \
   ROW(band_texels, 16, vec4, "band_scratch as the kernel reads it: the same memory")
 

@@ -1,23 +1,36 @@
-// The drift of one particle, plain or with Kahan's compensation: `compensation` holds what position has
-// too much.
+// Sums of a particle's position and velocity, plain or by Kahan: `compensation` holds what positions, then
+// velocities, have too much.
 
-vec3 drifted(uint p, vec3 x0, float h, vec3 v) {
-  precise vec3 travelled = h * v;
+vec3 added(uint slot, vec3 a, vec3 b) {
 #ifdef COMPENSATED
-  travelled = travelled - compensation[p].xyz;
+  precise vec3 wanted = b - compensation[slot].xyz;
+  precise vec3 sum = a + wanted;
+  precise vec3 taken = sum - a;
+  precise vec3 excess = taken - wanted;
+  compensation[slot] = vec4(excess, 0.0);
+#else
+  precise vec3 sum = a + b;
 #endif
-  precise vec3 x1 = x0 + travelled;
-#ifdef COMPENSATED
-  precise vec3 taken = x1 - x0;
-  precise vec3 excess = taken - travelled;
-  compensation[p] = vec4(excess, 0.0);
-#endif
-  return x1;
+  return sum;
 }
 
-// A place that contact has put a particle in has lost nothing.
-void forget_lost(uint p) {
+vec3 kicked_at(uint p, Step s, vec3 v0, vec3 acc) {
+  return added(params.nx * params.ny + p, v0, kick_change(s.loss, s.gain, v0, acc));
+}
+
+vec3 drifted_at(uint p, Step s, vec3 x0, vec3 v) {
+  precise vec3 travelled = s.drift * v;
+  return added(p, x0, travelled);
+}
+
+// Contact after a drift; what it moves has nothing left over.
+void touched_at(uint p, Step s, vec3 x0, inout vec3 x1, inout vec3 v) {
+  vec3 free_x = x1, free_v = v;
+  contact(s.row, x0, x1, v);
 #ifdef COMPENSATED
-  compensation[p] = vec4(0.0);
+  if (x1 != free_x || v != free_v) {
+    compensation[p] = vec4(0.0);
+    compensation[params.nx * params.ny + p] = vec4(0.0);
+  }
 #endif
 }

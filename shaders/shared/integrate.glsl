@@ -28,13 +28,9 @@ void move(Step s, Column c, inout March m) {
   precise vec3 x1 = x0;
   precise vec3 v = v0;
   if (!pins || w != 0.0) {
-    v = kicked(s, v0, acceleration(s, F, w));
-    x1 = drifted(m.p, x0, s.drift, v);
-    if ((spheres || floor_contact) && s.drift > 0.0) {
-      vec3 free = x1;
-      contact(s.row, x0, x1, v);
-      if (x1 != free) forget_lost(m.p);
-    }
+    v = kicked_at(m.p, s, v0, acceleration(s, F, w));
+    x1 = drifted_at(m.p, s, x0, v);
+    if ((spheres || floor_contact) && s.drift > 0.0) touched_at(m.p, s, x0, x1, v);
   }
   position_next[m.p] = vec4(x1, relative);
   velocity_next[m.p] = vec4(v, 0.0);

@@ -22,15 +22,18 @@ vec3 acceleration(Step s, vec3 F, float w) {
   return acc;
 }
 
-// The exact kick of docs/float-form.md "Kick and drift", with the row's loss and gain or another pair.
-vec3 kicked_by(float loss, float gain, vec3 v0, vec3 acc) {
+// What the exact kick of docs/float-form.md "Kick and drift" adds to v0, with the row's loss and gain or
+// another pair.
+vec3 kick_change(float loss, float gain, vec3 v0, vec3 acc) {
   precise vec3 change = gain * acc;
   if (air) {
     precise vec3 lost = loss * v0;
     change = change - lost;
   }
-  precise vec3 v = v0 + change;
-  return v;
+  return change;
 }
 
-vec3 kicked(Step s, vec3 v0, vec3 acc) { return kicked_by(s.loss, s.gain, v0, acc); }
+vec3 kicked(Step s, vec3 v0, vec3 acc) {
+  precise vec3 v = v0 + kick_change(s.loss, s.gain, v0, acc);
+  return v;
+}

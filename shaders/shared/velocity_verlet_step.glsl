@@ -31,14 +31,10 @@ void move(Step s, Column c, inout March m) {
   precise vec3 predicted = v0;
   if (!pins || w != 0.0) {
     precise vec3 acc = acceleration(s, F, w);
-    v = kicked(s, row_index == 0u ? v0 : half_velocity[m.p].xyz, acc);
-    x1 = drifted(m.p, x0, s.drift, v);
-    if ((spheres || floor_contact) && s.drift > 0.0) {
-      vec3 free = x1;
-      contact(s.row, x0, x1, v);
-      if (x1 != free) forget_lost(m.p);
-    }
-    predicted = kicked_by(s.predict_loss, s.predict_gain, v, acc);
+    v = kicked_at(m.p, s, row_index == 0u ? v0 : half_velocity[m.p].xyz, acc);
+    x1 = drifted_at(m.p, s, x0, v);
+    if ((spheres || floor_contact) && s.drift > 0.0) touched_at(m.p, s, x0, x1, v);
+    predicted = v + kick_change(s.predict_loss, s.predict_gain, v, acc);
   }
   position_next[m.p] = vec4(x1, relative);
   velocity_next[m.p] = vec4(predicted, 0.0);

@@ -43,20 +43,16 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& velocity_next = buffers[BufferId::velocity_next];
   position_next.resize(context.model.grid.count());
   velocity_next.resize(context.model.grid.count());
-  auto& lost = buffers[BufferId::compensation];
-  if (kCompensated) lost.resize(context.model.grid.count(), glm::vec<4, T>(T(0)));
+  Compensation<T, kCompensated> compensation(buffers, context.model.grid.count());
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v = own.v;
     if (!own.pinned()) {
-      v = substep.kicked(v, substep.acceleration(force, own.w));
-      if constexpr (kCompensated)
-        x1 = drifted(own.x, substep.row.drift * v, lost[p]);
-      else
-        x1 = own.x + substep.row.drift * v;
-      const Vec3<T> free = x1;
+      v = compensation.kicked(p, v, substep.change(v, substep.acceleration(force, own.w)));
+      x1 = compensation.drifted(p, own.x, substep.row.drift * v);
+      const Vec3<T> free_x = x1, free_v = v;
       if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
-      if (kCompensated && x1 != free) lost[p] = glm::vec<4, T>(T(0));
+      if (x1 != free_x || v != free_v) compensation.forget(p);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(v, T(0));

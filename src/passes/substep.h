@@ -81,15 +81,16 @@ struct Substep {
     return acceleration;
   }
 
-  /// The same with another pair than the row's.
-  Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration, T loss, T gain) const {
-    return has_air ? v + (gain * acceleration - loss * v) : v + gain * acceleration;
+  /// What a kick adds to v, with the row's loss and gain or another pair.
+  Vec3<T> change(const Vec3<T>& v, const Vec3<T>& acceleration, T loss, T gain) const {
+    return has_air ? gain * acceleration - loss * v : gain * acceleration;
+  }
+  Vec3<T> change(const Vec3<T>& v, const Vec3<T>& acceleration) const {
+    return change(v, acceleration, row.loss, row.gain);
   }
 
   /// docs/float-form.md "Kick and drift".
-  Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration) const {
-    return kicked(v, acceleration, row.loss, row.gain);
-  }
+  Vec3<T> kicked(const Vec3<T>& v, const Vec3<T>& acceleration) const { return v + change(v, acceleration); }
 
   bool has_contact() const { return has_spheres || has_floor; }
 
@@ -129,15 +130,36 @@ struct Particle {
   bool pinned() const { return w == T(0); }
 };
 
-/// The place after moving by `travelled`, with Kahan's compensation: `lost` holds what x has too much.
-/// docs/solvers.md "f32k".
-template <class T>
-Vec3<T> drifted(const Vec3<T>& x0, const Vec3<T>& travelled, glm::vec<4, T>& lost) {
-  const Vec3<T> wanted = travelled - xyz(lost);
-  const Vec3<T> x1 = x0 + wanted;
-  lost = glm::vec<4, T>((x1 - x0) - wanted, T(0));
-  return x1;
-}
+/// Where sums keep what rounding has added to positions and velocities; without compensation it is nothing
+/// and costs nothing. docs/solvers.md "f32k".
+template <class T, bool kCompensated>
+class Compensation {
+ public:
+  Compensation(HostBuffers<T>& buffers, std::size_t count)
+      : excess_(buffers[BufferId::compensation]), count_(count) {
+    if (kCompensated) excess_.resize(2 * count, glm::vec<4, T>(T(0)));
+  }
+  Vec3<T> kicked(std::size_t p, const Vec3<T>& v, const Vec3<T>& change) {
+    return added(count_ + p, v, change);
+  }
+  Vec3<T> drifted(std::size_t p, const Vec3<T>& x, const Vec3<T>& travel) { return added(p, x, travel); }
+  /// Contact has put the particle somewhere else: nothing is left over.
+  void forget(std::size_t p) {
+    if (kCompensated) excess_[p] = excess_[count_ + p] = glm::vec<4, T>(T(0));
+  }
+
+ private:
+  /// Kahan's sum.
+  Vec3<T> added(std::size_t slot, const Vec3<T>& a, const Vec3<T>& b) {
+    if constexpr (!kCompensated) return a + b;
+    const Vec3<T> wanted = b - xyz(excess_[slot]);
+    const Vec3<T> sum = a + wanted;
+    excess_[slot] = glm::vec<4, T>((sum - a) - wanted, T(0));
+    return sum;
+  }
+  std::vector<glm::vec<4, T>>& excess_;
+  std::size_t count_;
+};
 
 /// What every pass over the whole cloth declares.
 inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }

@@ -57,9 +57,14 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
     velocity[p] = glm::vec<4, T>(glm::vec<3, T>(state.velocity[p]), T(0));
   }
   auto& excess = buffers[BufferId::compensation];
-  for (std::size_t p = 0; p < excess.size(); ++p) {
-    const glm::dvec3 held(position[p].x, position[p].y, position[p].z);
-    excess[p] = glm::vec<4, T>(glm::vec<3, T>(held - state.position[p]), T(0));
+  if (excess.empty()) return;
+  const auto too_much = [](const glm::vec<4, T>& held, const glm::dvec3& meant) {
+    return glm::vec<4, T>(glm::vec<3, T>(glm::dvec3(held.x, held.y, held.z) - meant), T(0));
+  };
+  excess.resize(2 * count);
+  for (std::size_t p = 0; p < count; ++p) {
+    excess[p] = too_much(position[p], state.position[p]);
+    excess[count + p] = too_much(velocity[p], state.velocity[p]);
   }
 }
 
@@ -72,10 +77,13 @@ State store_state(const HostBuffers<T>& buffers, double time_s) {
   state.position.reserve(position.size());
   state.velocity.reserve(velocity.size());
   for (const auto& x : position) state.position.emplace_back(x.x, x.y, x.z);
-  const auto& excess = buffers[BufferId::compensation];
-  for (std::size_t p = 0; p < excess.size(); ++p)
-    state.position[p] -= glm::dvec3(excess[p].x, excess[p].y, excess[p].z);
   for (const auto& v : velocity) state.velocity.emplace_back(v.x, v.y, v.z);
+  const auto& excess = buffers[BufferId::compensation];
+  for (std::size_t p = 0; p < excess.size() / 2; ++p) {
+    const auto &x = excess[p], &v = excess[excess.size() / 2 + p];
+    state.position[p] -= glm::dvec3(x.x, x.y, x.z);
+    state.velocity[p] -= glm::dvec3(v.x, v.y, v.z);
+  }
   return state;
 }
 

@@ -17,7 +17,8 @@ shared::Params make_params(const Model& model);
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows, std::vector<shared::vec4>& table);
 
 /// Rounds a state into position (w = relative inverse mass) and velocity (w = 0), both resized to the grid.
-/// Where `buffers` has room for the compensation, it takes what rounding adds to the positions.
+/// Where `buffers` has room for the compensation, it takes what rounding adds to positions and
+/// velocities.
 template <class T>
 void load_state(const Model& model, const State& state, HostBuffers<T>& buffers);
 

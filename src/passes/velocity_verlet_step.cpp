@@ -17,22 +17,19 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& half_velocity = buffers[BufferId::half_velocity];
   for (auto* out : {&position_next, &velocity_next, &half_velocity}) out->resize(context.model.grid.count());
   const bool starts = context.row_index == 0;
-  auto& lost = buffers[BufferId::compensation];
-  if (kCompensated) lost.resize(context.model.grid.count(), glm::vec<4, T>(T(0)));
+  Compensation<T, kCompensated> compensation(buffers, context.model.grid.count());
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v = own.v, predicted = own.v;
     if (!own.pinned()) {
       const Vec3<T> acceleration = substep.acceleration(force, own.w);
-      v = substep.kicked(starts ? own.v : xyz(half_velocity[p]), acceleration);
-      if constexpr (kCompensated)
-        x1 = drifted(own.x, substep.row.drift * v, lost[p]);
-      else
-        x1 = own.x + substep.row.drift * v;
-      const Vec3<T> free = x1;
+      const Vec3<T> v0 = starts ? own.v : xyz(half_velocity[p]);
+      v = compensation.kicked(p, v0, substep.change(v0, acceleration));
+      x1 = compensation.drifted(p, own.x, substep.row.drift * v);
+      const Vec3<T> free_x = x1, free_v = v;
       if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
-      if (kCompensated && x1 != free) lost[p] = glm::vec<4, T>(T(0));
-      predicted = substep.kicked(v, acceleration, substep.row.predict_loss, substep.row.predict_gain);
+      if (x1 != free_x || v != free_v) compensation.forget(p);
+      predicted = v + substep.change(v, acceleration, substep.row.predict_loss, substep.row.predict_gain);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(predicted, T(0));

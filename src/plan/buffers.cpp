@@ -19,6 +19,7 @@ std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows) {
   const std::uint64_t element = row_of(id).element_bytes;
   switch (id) {
     case BufferId::params: return element;
+    case BufferId::compensation: return 2 * element * model.grid.count();
     case BufferId::constraints: return element * shared::kConstraintRows;
     case BufferId::substeps: return element * substep_row_capacity(rows) * substep_row_stride(model);
     default:  // one element a particle

@@ -26,7 +26,7 @@ class CpuSimulation final : public Simulation {
   CpuSimulation(const Model& model, const Solver& solver, const std::string& precision)
       : model_(model), plan_(compile_plan(model_, solver, precision)) {
     for (const PlanBuffer& buffer : plan_.buffers)
-      if (!host_written(buffer.id)) buffers_[buffer.id].resize(model_.grid.count());
+      if (!host_written(buffer.id)) buffers_[buffer.id].resize(buffer.bytes / sizeof(shared::vec4));
     write(start_state(model_));
   }
 

@@ -264,7 +264,7 @@ State VulkanSimulation::read() {
   wait();
   HostBuffers<float> host;
   for (const BufferId id : state_buffers()) {
-    host[id].resize(model_.grid.count());
+    host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
     buffers_.at(at_parity(id, parity_)).read(std::as_writable_bytes(std::span(host[id])));
   }
   return store_state(host, time_s_);
@@ -274,7 +274,8 @@ void VulkanSimulation::write(const State& state) {
   wait();
   frame_.order.reset();
   HostBuffers<float> host;
-  for (const BufferId id : state_buffers()) host[id].resize(model_.grid.count());
+  for (const BufferId id : state_buffers())
+    host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
   load_state(model_, state, host);
   for (const BufferId id : state_buffers())
     buffers_.at(at_parity(id, parity_)).write(std::as_bytes(std::span(host[id])));

@@ -98,7 +98,7 @@ PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, st
       buffers_.at(id, slot).read(after);
       if (!output && after != bytes) result.touched.push_back(id);
       if (slot_count(id) > 1) continue;
-      result.buffers[id].resize(model_.grid.count());
+      result.buffers[id].resize(after.size() / sizeof(shared::vec4));
       std::memcpy(result.buffers[id].data(), after.data(), after.size());
     }
   }
