@@ -78,7 +78,7 @@ TEST(Usage, EveryValueIsCheckedWithItsPlaceRuleAndCure) {
       {{"--frame", "0"}, "--frame is \"0\""},
       {{"--frame", "nan"}, "--frame is \"nan\""},
       {{"--precision", "f16"}, "f32, f32k, f64"},
-      {{"--precision", "f32k"}, "f32k"},
+      {{"--precision", "f32k", "--solver", "xpbd"}, "velocity-verlet"},
       {{"--device", ""}, "--device is empty"},
       {{"--shaders", "/no/such/folder"}, "--shaders"},
       {{"--out", ""}, "--out is empty"},

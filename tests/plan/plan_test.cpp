@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -129,16 +131,53 @@ TEST(Plan, has_room_for_the_closing_kick_at_powers_of_two) {
   EXPECT_EQ(substep_row_capacity(65), 128u);
 }
 
-TEST(Plan, of_a_solver_without_gpu_passes_says_so) {
+/// What a solver keeps beyond the state, and nobody else.
+TEST(Plan, has_a_solvers_own_buffers_only_with_that_solver) {
+  const Model model = model_of("[cloth]\nresolution = 8\n[material]\nbend = 1e-5\n[solver]\nsubsteps = 10\n");
+  const std::map<std::string_view, std::set<BufferId>> own{
+      {"velocity-verlet", {BufferId::half_velocity}},
+      {"verlet", {BufferId::position_previous}},
+      {"rk4",
+       {BufferId::base_position, BufferId::base_velocity, BufferId::sum_position, BufferId::sum_velocity}},
+      {"xpbd", {BufferId::constraints}}};
   for (const Solver* solver : solvers()) {
-    if (solver->on_gpu) continue;
-    const Model model = model_of("[cloth]\nresolution = 8\n");
     const Plan plan = compile_plan(model, *solver);
-    ASSERT_EQ(plan.steps.size(), 1u) << solver->name;
-    EXPECT_EQ(plan.steps[0].pass->name, "cpu_reference");
-    EXPECT_EQ(plan.bytes(), 0u);
-    EXPECT_NE(describe(plan, model).find("CPU reference only"), std::string::npos);
+    const auto keeps = own.find(solver->name);
+    std::set<BufferId> beyond;
+    for (const PlanBuffer& buffer : plan.buffers)
+      if (buffer.id > BufferId::normal) beyond.insert(buffer.id);
+    EXPECT_EQ(beyond, keeps == own.end() ? std::set<BufferId>{} : keeps->second) << solver->name;
+    if (!has_compensated(*solver)) continue;
+    const Plan compensated = compile_plan(model, *solver, "f32k");
+    EXPECT_EQ(bytes_of(compensated, BufferId::compensation), 2 * 16 * model.grid.count()) << solver->name;
+    EXPECT_EQ(compensated.bytes(), plan.bytes() + 2 * 16 * model.grid.count()) << solver->name;
   }
+}
+
+// Twelve colours of springs and six of bending triples, between a prediction and the velocities; a kind of
+// spring that the material does not have is not in the plan.
+TEST(Plan, of_xpbd_has_a_step_for_each_colour_there_is) {
+  const auto steps_of = [](const std::string& material) {
+    const Model model = model_of("[cloth]\nresolution = 8\n[material]\n" + material);
+    const Plan plan = compile_plan(model, find_solver("xpbd"));
+    EXPECT_EQ(plan.substeps, 20u);
+    std::uint64_t springs = 0;
+    for (const PlanStep& step : plan.steps) springs += step.spring_evaluations;
+    EXPECT_EQ(springs, model.spring_count);  // each once, whatever its colour
+    return plan.steps.size();
+  };
+  EXPECT_EQ(steps_of("bend = 1e-5\n"), 2u + 12 + 6 + 1);
+  EXPECT_EQ(steps_of("bend = 0.0\n"), 2u + 12 + 1);
+  EXPECT_EQ(steps_of("shear = 0.0\n"), 2u + 8 + 1);
+  EXPECT_EQ(steps_of("shear = 0.0\nflex = 0.0\n"), 2u + 4 + 1);
+}
+
+// A Runge-Kutta stage is a row of the table: 4 x 50 and a closing one need 256.
+TEST(Plan, has_a_row_of_the_table_for_each_stage) {
+  const Model model = model_of("[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n");
+  EXPECT_EQ(bytes_of(compile_plan(model, find_solver("rk4")), BufferId::substeps), 2u * 256 * 2 * 16);
+  EXPECT_EQ(bytes_of(compile_plan(model, find_solver("trapezoid")), BufferId::substeps), 2u * 128 * 2 * 16);
+  EXPECT_EQ(compile_plan(model, find_solver("rk4")).dispatches(), 4u * 50 + 1);
 }
 
 TEST(Plan, refuses_self_collision_until_there_are_passes_for_it) {
