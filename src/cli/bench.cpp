@@ -70,6 +70,7 @@ Exit run(const Options& o) {
     scenes.push_back(set_up(o, name).model.scene);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   BenchOptions options;
+  options.kernel = o.kernel;
   if (o.resolution) options.resolutions = {*o.resolution};
   std::vector<BenchReport> reports;
   for (const Scene& scene : scenes) {

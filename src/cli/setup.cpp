@@ -84,7 +84,7 @@ Machine start(const Options& o, const Setup& setup) {
     return machine;
   }
   machine.device = open_device(o);
-  auto on_gpu = GpuSimulation::create(*machine.device, setup.model, *setup.solver);
+  auto on_gpu = GpuSimulation::create(*machine.device, setup.model, *setup.solver, {.kernel = o.kernel});
   machine.on_gpu = on_gpu.get();
   machine.simulation = std::move(on_gpu);
   machine.device_label = device_label(machine.device->info());

@@ -94,6 +94,11 @@ void print_details(const Machine& machine, const Outcome& outcome) {
                    outcome.frame.dispatches, outcome.frame.substeps, plan.dispatches(), plan.substeps)
             << fmt::format("weft: bytes allocated {}; plan: {}\n", machine.simulation->bytes_allocated(),
                            plan.bytes());
+  if (machine.on_gpu == nullptr) return;
+  const GpuSimulation& device = *machine.on_gpu;
+  std::cerr << fmt::format("weft: kernel {}: {} dispatches in a frame of {}, {} bytes\n",
+                           describe(device.kernel()), device.dispatches_expected(plan.substeps),
+                           plan.substeps, device.bytes_expected());
 }
 
 Exit run(const Options& asked) {
