@@ -12,11 +12,11 @@ namespace weft {
 enum class Exit : int {
   ok = 0,
   internal = 1,
-  usage = 2,       ///< usage, or a bad scene
-  no_device = 3,   ///< no suitable device
-  diverged = 4,    ///< the simulation left the finite numbers
-  tolerance = 5,   ///< a comparison is over its tolerance
-  io = 6,          ///< input or output failed
+  usage = 2,      ///< usage, or a bad scene
+  no_device = 3,  ///< no suitable device
+  diverged = 4,   ///< the simulation left the finite numbers
+  tolerance = 5,  ///< a comparison is over its tolerance
+  io = 6,         ///< input or output failed
   skipped = 77,
   interrupted = 130,
 };
@@ -43,8 +43,8 @@ template <class... Args>
 #ifdef NDEBUG
 #define WEFT_ASSERT(condition) ((void)0)
 #else
-#define WEFT_ASSERT(condition)                                                              \
-  ((condition) ? (void)0                                                                    \
-               : throw ::weft::Error(::weft::Exit::internal,                                \
+#define WEFT_ASSERT(condition)                               \
+  ((condition) ? (void)0                                     \
+               : throw ::weft::Error(::weft::Exit::internal, \
                                      fmt::format("{}:{}: {}", __FILE__, __LINE__, #condition)))
 #endif

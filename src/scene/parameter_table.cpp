@@ -35,7 +35,7 @@ constexpr double kFarthest_m = 1e4;
 
 // The solvers of src/solvers, which lies above this folder; its tests hold the two lists together.
 constexpr std::string_view kSolverNames =
-    "leapfrog|velocity_verlet|symplectic_euler|verlet|euler|trapezoid|rk4|xpbd";
+    "leapfrog|velocity-verlet|symplectic-euler|verlet|euler|trapezoid|rk4|xpbd";
 
 const Parameter kTable[] = {
     {.section = "",

@@ -112,9 +112,10 @@ TEST(Usage, AQuoteInANameStaysInTheName) {
   expect_refused({"simulate", "1", "--device", "cpu", "--material", "a\"\n[floor]\nheight=9"}, {"weft: "});
 }
 
-TEST(Usage, OptionsOfLaterVersionsAreNotAcceptedSilently) {
-  expect_refused({"simulate", "1", "--budget", "4"}, {"--budget"});
-  expect_refused({"simulate", "1", "--error", "1e-3"}, {"--error"});
+TEST(Usage, AWishForAnErrorOrATimeStandsAlone) {
+  expect_refused({"simulate", "1", "--budget", "4", "--error", "1e-3"}, {"--budget", "--error"});
+  expect_refused({"simulate", "1", "--error", "1e-3", "--substeps", "9"}, {"--error", "--substeps"});
+  expect_refused({"simulate", "1", "--budget", "4", "--solver", "xpbd"}, {"--budget", "--solver"});
 }
 
 // A mistyped scene is said before a window is asked for.

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "gpu_fixture.h"
+#include "plan/plan.h"
 #include "scenes.h"
 #include "sim/gpu_program.h"
-#include "plan/plan.h"
 #include "sim/validate.h"
 
 namespace weft::test {

@@ -2,6 +2,7 @@
 #include "sim/validate.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +74,8 @@ std::string failures(const ValidationReport& report) {
 /// Shaders whose spring roots are off by `ulps` everywhere, all to the same side, as a poor divider's are.
 class PoorRoots {
  public:
-  explicit PoorRoots(int ulps) : folder_(std::filesystem::temp_directory_path() / "weft-poor-roots") {
+  explicit PoorRoots(int ulps)
+      : folder_(std::filesystem::temp_directory_path() / fmt::format("weft-poor-roots-{}", getpid())) {
     namespace fs = std::filesystem;
     fs::remove_all(folder_);
     fs::copy(WEFT_SOURCE_DIR "/shaders", folder_, fs::copy_options::recursive);
