@@ -81,7 +81,7 @@ Options with_chosen_setting(const Options& asked, const std::string& scene_name,
   refuse_contradictions(asked, time_s);
   const study::Study study = study_of(asked, scene, time_s);
   std::vector<study::Point> points;
-  for (const study::Point& point : study.points_at(scene.cloth.resolution))
+  for (const study::Point& point : study.promises_at(scene.cloth.resolution))
     if (!asked.precision || point.setting.precision == *asked.precision) points.push_back(point);
   const study::Point chosen = choose(asked, study, points);
   note(asked, "chosen: " + described(chosen, study.frame_s));

@@ -74,7 +74,7 @@ class Refinement {
     reference.substeps = substeps_at(number);
     if (number == 0) return false;
     reference.ending = Ending::agreed;
-    if (reference.agreement_m <= options_.tolerance_m) return true;
+    if (reference.agreement_m <= options_.tolerance_m && number + 1 >= options_.levels_min) return true;
     reference.ending = Ending::no_gain;
     return number > 1 && reference.agreement_m > kNoGain * before_m;
   }
@@ -82,7 +82,7 @@ class Refinement {
   /// Levels beyond the first ones, one by one while there is time: each takes twice as long as the last.
   void refine_further(Clock::time_point began, double last_level_s, Reference& reference, const Note& note) {
     for (std::uint32_t number = kFirstLevels; number < options_.levels_max; ++number) {
-      reference.ending = Ending::out_of_time;
+      reference.ending = so_far(reference);
       if (seconds_since(began) + 2.0 * last_level_s > options_.seconds) return;
       if (substeps_at(number) > (1u << 22)) return;
       note(fmt::format("reference at {} substeps a frame (agreement so far {:.1e} m)", substeps_at(number),
@@ -92,10 +92,14 @@ class Refinement {
       last_level_s = seconds_since(level_began);
       if (add(std::move(level), number, reference)) return;
     }
-    reference.ending = Ending::out_of_time;
+    reference.ending = so_far(reference);
   }
 
  private:
+  /// How refinement would be said to have ended if no level followed.
+  Ending so_far(const Reference& reference) const {
+    return reference.agreement_m <= options_.tolerance_m ? Ending::agreed : Ending::out_of_time;
+  }
   const Model& model_;
   double time_s_;
   const ReferenceOptions& options_;

@@ -13,6 +13,7 @@ namespace weft::study {
 
 struct ReferenceOptions {
   double tolerance_m = 1e-9;     ///< two successive refinements shall agree to this
+  std::uint32_t levels_min = 2;  ///< even if fewer agree: so that a tenth of a fine rk4's error is known
   std::uint32_t levels_max = 8;  ///< of substeps, each with twice those of the one before
   double seconds = 600.0;        ///< no further level is begun that would end later than this
   bool discretisation = true;    ///< also run the cloth at twice the resolution

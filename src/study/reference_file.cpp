@@ -83,9 +83,13 @@ std::optional<Reference> load(const std::filesystem::path& file, const std::stri
   }
 }
 
-bool good_enough(const Reference& reference, const ReferenceOptions& options) {
-  if (reference.allowed_s >= options.seconds) return true;  // no better one would come of trying again
-  const bool settled = reference.ending == Ending::no_gain || reference.agreement_m <= options.tolerance_m;
+bool good_enough(const Model& model, const Reference& reference, const ReferenceOptions& options) {
+  if (reference.ending == Ending::out_of_time && reference.allowed_s >= options.seconds)
+    return true;  // no better one would come of trying again
+  const std::uint32_t first = substeps_per_frame(with_setting(model, {"rk4", "f64", 0}), find_solver("rk4"));
+  const bool agreed =
+      reference.agreement_m <= options.tolerance_m && reference.substeps >= first << (options.levels_min - 1);
+  const bool settled = reference.ending == Ending::no_gain || agreed;
   return settled && (reference.discretisation_m >= 0.0 || !options.discretisation);
 }
 
@@ -132,7 +136,8 @@ std::optional<Reference> kept_reference(const Model& model, double time_s) {
 
 Reference find_reference(const Model& model, double time_s, const ReferenceOptions& options, const Stop& stop,
                          const std::function<void(const std::string&)>& note) {
-  if (auto kept = kept_reference(model, time_s); kept && good_enough(*kept, options)) return std::move(*kept);
+  if (auto kept = kept_reference(model, time_s); kept && good_enough(model, *kept, options))
+    return std::move(*kept);
   const std::string identity = identity_of(model, time_s);
   const std::filesystem::path file = reference_file(model, time_s);
   Reference reference = make_reference(model, time_s, options, stop, note);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 
 #include "study/identity.h"
@@ -53,6 +54,14 @@ std::vector<Point> Study::points_at(std::uint32_t nx) const {
   std::vector<Point> chosen;
   for (const Point& point : points)
     if (point.nx == nx) chosen.push_back(point);
+  return chosen;
+}
+
+std::vector<Point> Study::promises_at(std::uint32_t nx) const {
+  std::vector<Point> chosen = points_at(nx);
+  const Cloth* known = cloth(nx);
+  for (Point& point : chosen)
+    if (known != nullptr) point.error_m = std::max(point.error_m, known->agreement_m);
   return chosen;
 }
 

@@ -39,6 +39,8 @@ struct Study {
 
   const Cloth* cloth(std::uint32_t nx) const;
   std::vector<Point> points_at(std::uint32_t nx) const;
+  /// points_at, no error below what the reference itself is known to: what may be promised of them.
+  std::vector<Point> promises_at(std::uint32_t nx) const;
 };
 
 std::string to_json(const Study& study);

@@ -57,6 +57,14 @@ TEST(Json, ReturnsTheStudy) {
   EXPECT_THROW(study_from_json("{"), nlohmann::json::exception);
 }
 
+TEST(Promises, AreNotFinerThanTheReferenceIsKnown) {
+  Study study = sample();
+  study.cloths[0].agreement_m = 5e-5;  // between the errors of the two points that did not diverge
+  EXPECT_EQ(study.promises_at(9)[0].error_m, study.points[0].error_m);
+  EXPECT_EQ(study.promises_at(9)[1].error_m, 5e-5);
+  EXPECT_TRUE(study.promises_at(9)[2].diverged);
+}
+
 TEST(Csv, HasAHeaderAndARowAPoint) {
   const std::string csv = points_csv(sample().points);
   EXPECT_EQ(csv.rfind("solver,precision,substeps,nx,ny,diverged,error_m,ms_per_simulated_s,", 0), 0u);
