@@ -89,22 +89,47 @@ void Recorder::dispatch(const ComputePipeline& pipeline, const DescriptorSet& se
                 "Pass {} needs {}x{} workgroups; device \"{}\" runs at most {}x{}; lower the resolution",
                 pipeline.name(), groups_x, groups_y, device_.info().name, most[0], most[1]);
   }
-  if (push_constants.size() != pipeline.reflection().push_constant_bytes)
-    throw error(Exit::internal, "Pass {} takes {} bytes of push constants and was given {}", pipeline.name(),
-                pipeline.reflection().push_constant_bytes, push_constants.size());
-  if (barriers_ == Barriers::automatic && conflicts(pipeline, set)) {
-    // One barrier for all buffers: per-buffer barriers cost the same and order nothing less.
-    memory_barrier(commands_, kCompute, VK_ACCESS_2_SHADER_WRITE_BIT, kCompute, kShaderUse);
-    uses_.clear();
-    ++barrier_count_;
-  }
+  order(pipeline, set, false);
   bind(pipeline, set);
-  if (!push_constants.empty())
-    vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                       static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
+  push(pipeline, push_constants);
   vkCmdDispatch(commands_, groups_x, groups_y, 1);
   note_uses(pipeline, set);
   ++dispatches_;
+}
+
+void Recorder::dispatch_indirect(const ComputePipeline& pipeline, const DescriptorSet& set,
+                                 const Buffer& groups, VkDeviceSize offset,
+                                 std::span<const std::byte> push_constants) {
+  order(pipeline, set, true);
+  bind(pipeline, set);
+  push(pipeline, push_constants);
+  vkCmdDispatchIndirect(commands_, groups.handle(), offset);
+  note_uses(pipeline, set);
+  indirect_ = true;
+  ++dispatches_;
+}
+
+/// The barrier that the dispatch needs, if any. An indirect one always gets one: its workgroups were written
+/// by a pass that an earlier barrier may have ordered against shaders only.
+void Recorder::order(const ComputePipeline& pipeline, const DescriptorSet& set, bool indirect) {
+  if (barriers_ != Barriers::automatic || !(indirect || conflicts(pipeline, set))) return;
+  constexpr VkPipelineStageFlags2 kIndirect = VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+  // One barrier for all buffers: per-buffer barriers cost the same and order nothing less.
+  memory_barrier(commands_, indirect_ ? kCompute | kIndirect : kCompute, VK_ACCESS_2_SHADER_WRITE_BIT,
+                 indirect ? kCompute | kIndirect : kCompute,
+                 indirect ? kShaderUse | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT : kShaderUse);
+  uses_.clear();
+  indirect_ = false;
+  ++barrier_count_;
+}
+
+void Recorder::push(const ComputePipeline& pipeline, std::span<const std::byte> push_constants) {
+  if (push_constants.size() != pipeline.reflection().push_constant_bytes)
+    throw error(Exit::internal, "Pass {} takes {} bytes of push constants and was given {}", pipeline.name(),
+                pipeline.reflection().push_constant_bytes, push_constants.size());
+  if (push_constants.empty()) return;
+  vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                     static_cast<std::uint32_t>(push_constants.size()), push_constants.data());
 }
 
 void Recorder::finish() {

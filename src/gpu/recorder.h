@@ -28,6 +28,10 @@ class Recorder {
   /// @param push_constants  as many bytes as the shader declares
   void dispatch(const ComputePipeline&, const DescriptorSet&, std::uint32_t groups_x, std::uint32_t groups_y,
                 std::span<const std::byte> push_constants = {});
+  /// The same with the workgroups (x, y, z) in a buffer, read when the device comes to it.
+  /// @param offset  of the first of the three words [bytes], a multiple of 4
+  void dispatch_indirect(const ComputePipeline&, const DescriptorSet&, const Buffer& groups,
+                         VkDeviceSize offset, std::span<const std::byte> push_constants = {});
   /// Makes all shader writes so far visible to index and vertex input, vertex shaders, transfers and the
   /// host.
   void finish();
@@ -42,6 +46,8 @@ class Recorder {
   bool conflicts(const ComputePipeline&, const DescriptorSet&) const;
   void note_uses(const ComputePipeline&, const DescriptorSet&);
   void bind(const ComputePipeline&, const DescriptorSet&);
+  void order(const ComputePipeline&, const DescriptorSet&, bool indirect);
+  void push(const ComputePipeline&, std::span<const std::byte> push_constants);
   Device& device_;
   VkCommandBuffer commands_;
   Barriers barriers_;
@@ -50,6 +56,7 @@ class Recorder {
   std::vector<Use> uses_;
   std::uint64_t dispatches_ = 0;
   std::uint64_t barrier_count_ = 0;
+  bool indirect_ = false;  // whether the device read workgroups since the latest barrier
   int labels_ = 0;
 };
 
