@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/buffers.h"
+#include "shared/collision.h"
 #include "shared/params.h"
 
 namespace weft {
@@ -35,14 +36,22 @@ inline constexpr std::size_t kBufferCount = kBufferRows.size();
 
 constexpr const BufferRow& row_of(BufferId id) { return kBufferRows[static_cast<std::size_t>(id)]; }
 
-/// Vector-valued buffers on the host. `params` and `substeps` have no place here: mirrors take the Model
-/// and the schedule row instead, so that they check the tables too.
+/// Whether the buffer is integers: counts, indices, flags.
+constexpr bool holds_words(BufferId id) { return row_of(id).element == "uint"; }
+
+/// Buffers on the host: vectors in T, integers as they are. `params`, `substeps` and `collision` have no
+/// place here: mirrors take the Model and the schedule row instead, so that they check the tables too.
 template <class T>
 struct HostBuffers {
   std::array<std::vector<glm::vec<4, T>>, kBufferCount> vec4;
+  std::array<std::vector<std::uint32_t>, kBufferCount> words;
   std::vector<glm::vec<4, T>>& operator[](BufferId id) { return vec4[static_cast<std::size_t>(id)]; }
   const std::vector<glm::vec<4, T>>& operator[](BufferId id) const {
     return vec4[static_cast<std::size_t>(id)];
+  }
+  std::vector<std::uint32_t>& words_of(BufferId id) { return words[static_cast<std::size_t>(id)]; }
+  const std::vector<std::uint32_t>& words_of(BufferId id) const {
+    return words[static_cast<std::size_t>(id)];
   }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -60,6 +61,13 @@ struct Pass {
   /// springs it evaluates. domain and spring_evaluations are not asked then.
   Range (*item_domain)(const Model&, std::uint32_t item) = nullptr;
   std::uint64_t (*item_spring_evaluations)(const Model&, std::uint32_t item) = nullptr;
+  /// In the substep block: runs in the first substep of a frame and every so many after it; null: in each.
+  std::uint32_t (*interval)(const Model&, double substep_s) = nullptr;
+  /// Runs only where this word of collision_state is not 0; the word and the two after it are its workgroups,
+  /// by which a device skips it without being asked. The mirror and the shader look at the word themselves.
+  std::optional<std::uint32_t> groups_word = std::nullopt;
+  /// Brings buffers whose order the device may choose into one order, for comparisons; null: there are none.
+  void (*settle_order)(const Model&, HostBuffers<float>&) = nullptr;
 };
 
 }  // namespace weft

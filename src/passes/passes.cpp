@@ -21,7 +21,15 @@ std::span<const Pass* const> passes() {
                                       &xpbd_finish,
                                       &integrate_compensated,
                                       &velocity_verlet_compensated,
-                                      &normals};
+                                      &normals,
+                                      &pair_check,
+                                      &cell_count,
+                                      &cell_scan,
+                                      &cell_fill,
+                                      &cell_sort,
+                                      &pair_gather,
+                                      &touch_count,
+                                      &self_contact};
   return kPasses;
 }
 

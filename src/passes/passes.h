@@ -23,6 +23,15 @@ extern const Pass integrate_compensated;        ///< f32k
 extern const Pass velocity_verlet_compensated;  ///< f32k
 extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
+extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
+extern const Pass cell_count;    ///< particles of each bucket of the grid
+extern const Pass cell_scan;     ///< counts to the ends of the buckets
+extern const Pass cell_fill;     ///< particles into the buckets
+extern const Pass cell_sort;     ///< in ascending order
+extern const Pass pair_gather;   ///< lists of pairs within limit and skin
+extern const Pass touch_count;   ///< pairs nearer than their limit
+extern const Pass self_contact;  ///< pushes them apart
+
 /// All of them; `validate` walks this list.
 std::span<const Pass* const> passes();
 

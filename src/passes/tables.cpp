@@ -29,6 +29,11 @@ shared::Params make_params(const Model& model) {
   return params;
 }
 
+std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
+  constexpr std::uint32_t kGroup = shared::kCollisionGroup;
+  return {(grid.nx + kGroup - 1) / kGroup, grid.ny, 1, 1, 1, 1, 0, 0};
+}
+
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
                        std::vector<shared::vec4>& table) {
   table.clear();

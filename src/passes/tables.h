@@ -13,6 +13,9 @@ namespace weft {
 /// @throws Error(Exit::usage) when the scene has more spheres than shared::kMaxSpheres
 shared::Params make_params(const Model& model);
 
+/// The words of collision_state before the first substep: no lists are there yet.
+std::vector<std::uint32_t> initial_collision_state(const Grid& grid);
+
 /// Replaces `table` with the rows of one frame, in the layout that shared/params.h documents.
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows, std::vector<shared::vec4>& table);
 

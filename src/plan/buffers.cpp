@@ -4,7 +4,10 @@
 #include <array>
 #include <bit>
 
+#include "passes/collision.h"
 #include "passes/passes.h"
+#include "passes/tables.h"
+#include "plan/plan.h"
 
 namespace weft {
 
@@ -22,6 +25,10 @@ std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows) {
     case BufferId::compensation: return 2 * element * model.grid.count();
     case BufferId::constraints: return element * shared::kConstraintRows;
     case BufferId::substeps: return element * substep_row_capacity(rows) * substep_row_stride(model);
+    case BufferId::collision: return element;
+    case BufferId::collision_state: return element * shared::kCollisionStateWords;
+    case BufferId::cells: return element * (collision_layout(model).buckets + std::uint64_t{1});
+    case BufferId::pair_places: return element * collision_layout(model).capacity * model.grid.count();
     default:  // one element a particle
       return element * model.grid.count();
   }
@@ -71,8 +78,44 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &xpbd_predict) return kXpbdPredict;
   if (&pass == &xpbd_spring || &pass == &xpbd_bend) return kXpbdSpring;
   if (&pass == &xpbd_finish) return kXpbdFinish;
+  using enum BufferId;
+  static constexpr std::array kPairCheck = {params,          position,       collision,
+                                            collision_state, built_position, cells};
+  static constexpr std::array kCellScan = {params, collision, collision_state, cells};
+  static constexpr std::array kCellFill = {params,          position, collision,
+                                           collision_state, cells,    cell_arrivals};
+  static constexpr std::array kCellSort = {params, position,      collision,   collision_state,
+                                           cells,  cell_arrivals, cell_members};
+  static constexpr std::array kPairGather = {params, position,     collision,  collision_state,
+                                             cells,  cell_members, pair_count, pair_places};
+  static constexpr std::array kTouchCount = {params,     position,    collision,  collision_state,
+                                             pair_count, pair_places, touch_count};
+  static constexpr std::array kSelfContact = {params,    position,   position_next, velocity,   velocity_next,
+                                              collision, pair_count, pair_places,   touch_count};
   if (&pass == &normals) return kNormals;
+  if (&pass == &pair_check || &pass == &cell_count) return kPairCheck;
+  if (&pass == &cell_scan) return kCellScan;
+  if (&pass == &cell_fill) return kCellFill;
+  if (&pass == &cell_sort) return kCellSort;
+  if (&pass == &pair_gather) return kPairGather;
+  if (&pass == &weft::touch_count) return kTouchCount;
+  if (&pass == &self_contact) return kSelfContact;
   return {};
 }
+
+template <class T>
+void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers) {
+  for (const PlanBuffer& buffer : plan.buffers) {
+    if (holds_words(buffer.id))
+      buffers.words_of(buffer.id).assign(buffer.bytes / sizeof(std::uint32_t), 0);
+    else if (row_of(buffer.id).element == "vec4" && slot_count(buffer.id) == 1)
+      buffers[buffer.id].assign(buffer.bytes / sizeof(shared::vec4), glm::vec<4, T>(T(0)));
+  }
+  auto& state = buffers.words_of(BufferId::collision_state);
+  if (!state.empty()) state = initial_collision_state(model.grid);
+}
+
+template void size_buffers(const Plan&, const Model&, HostBuffers<float>&);
+template void size_buffers(const Plan&, const Model&, HostBuffers<double>&);
 
 }  // namespace weft

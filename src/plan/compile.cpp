@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "passes/integrate.h"
+#include "passes/passes.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -52,7 +53,7 @@ std::vector<LeftOut> left_out_effects(const Model& model) {
       if (constant.name == effect.constant && constant.value == 0)
         left_out.push_back({effect.name, effect.reason(model.scene)});
   }
-  left_out.push_back({"self-collision", absent_section("[self_collision]")});
+  if (!model.scene.self_collision) left_out.push_back({"self-collision", absent_section("[self_collision]")});
   return left_out;
 }
 
@@ -80,8 +81,11 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
       const std::uint64_t springs = pass.item_spring_evaluations
                                         ? pass.item_spring_evaluations(model, step.item)
                                         : pass.spring_evaluations(model);
-      steps.push_back({&pass, block, block == Block::substep ? substeps : 1, range, pass.constants(model),
-                       step.row, step.item, springs});
+      const bool sparse = block == Block::substep && pass.interval != nullptr;
+      const std::uint32_t interval = sparse ? pass.interval(model, model.scene.solver.frame_s / substeps) : 1;
+      const std::uint32_t repeat = block == Block::substep ? (substeps - 1) / interval + 1 : 1;
+      steps.push_back(
+          {&pass, block, repeat, range, pass.constants(model), step.row, step.item, springs, interval});
     }
   return steps;
 }
@@ -100,6 +104,15 @@ void require_precision(const Model& model, const Solver& solver, std::string_vie
               model.scene.source, solver.name, able);
 }
 
+void require_collision(const Model& model, const Solver& solver) {
+  const auto pushes = [](const SolverStep& step) { return step.pass == &self_contact; };
+  if (!model.scene.self_collision || std::ranges::any_of(solver.steps, pushes)) return;
+  throw error(Exit::usage,
+              "{}: [self_collision] with thickness {} m: the solver {} has no passes for self-collision; use "
+              "leapfrog, or remove the section to simulate the cloth without it",
+              model.scene.source, model.scene.self_collision->thickness_m, solver.name);
+}
+
 }  // namespace
 
 bool has_compensated(const Solver& solver) {
@@ -109,12 +122,7 @@ bool has_compensated(const Solver& solver) {
 
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
   require_precision(model, solver, precision);
-  if (model.scene.self_collision)
-    throw error(
-        Exit::usage,
-        "{}: [self_collision] with thickness {} m: no pass for self-collision is available yet; remove the "
-        "section to simulate the cloth without it",
-        model.scene.source, model.scene.self_collision->thickness_m);
+  require_collision(model, solver);
   Plan plan{};
   plan.solver = &solver;
   plan.precision = precision;

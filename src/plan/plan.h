@@ -21,6 +21,7 @@ struct PlanStep {
   std::uint32_t row = 0;                 ///< which of its substep's rows it reads
   std::uint32_t item = 0;                ///< which part of the pass's work it does
   std::uint64_t spring_evaluations = 0;  ///< of one dispatch
+  std::uint32_t interval = 1;  ///< in the substep block: runs in substeps 0, interval, 2·interval, …
 };
 
 struct PlanBuffer {
@@ -57,6 +58,11 @@ bool has_compensated(const Solver& solver);
 /// @param precision  "f32", "f32k" or "f64"; f32k takes each pass's compensated form
 /// @throws Error(Exit::usage) listing the precisions, or the solvers that have a compensated form
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision = "f32");
+
+/// Gives the host every buffer of the plan that mirrors read or write, in its size; collision_state says that
+/// no lists are there yet, all else is zero.
+template <class T>
+void size_buffers(const Plan&, const Model&, HostBuffers<T>&);
 
 std::string describe(const Plan&, const Model&);  ///< for people
 std::string to_json(const Plan&, const Model&);   ///< {"steps","buffers","left_out","bytes"}

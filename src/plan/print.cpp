@@ -49,6 +49,11 @@ std::string describe(const Plan& plan, const Model& model) {
     text +=
         fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", block_name(step.block), step.pass->name, step.repeat,
                     fmt::format("{} x {}", step.range.x, step.range.y), constants_text(step.constants));
+  for (const PlanStep& step : plan.steps)
+    if (step.interval > 1) {
+      text += fmt::format("Passes of self-collision run in every {}th substep.\n", step.interval);
+      break;
+    }
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",
                         plan.solver->name);
@@ -80,6 +85,7 @@ std::string to_json(const Plan& plan, const Model& model) {
                              {"repeat", step.repeat},
                              {"range", {step.range.x, step.range.y}},
                              {"constants", constants}});
+    if (step.interval > 1) json["steps"].back()["interval"] = step.interval;
   }
   json["buffers"] = Json::array();
   for (const PlanBuffer& buffer : plan.buffers)

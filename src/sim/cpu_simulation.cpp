@@ -25,8 +25,7 @@ class CpuSimulation final : public Simulation {
  public:
   CpuSimulation(const Model& model, const Solver& solver, const std::string& precision)
       : model_(model), plan_(compile_plan(model_, solver, precision)) {
-    for (const PlanBuffer& buffer : plan_.buffers)
-      if (!host_written(buffer.id)) buffers_[buffer.id].resize(buffer.bytes / sizeof(shared::vec4));
+    size_buffers(plan_, model_, buffers_);
     write(start_state(model_));
   }
 
@@ -54,9 +53,15 @@ class CpuSimulation final : public Simulation {
     return stats;
   }
 
+  std::optional<SelfCollisionReport> self_collision() override {
+    if (!model_.scene.self_collision) return std::nullopt;
+    return report_of(buffers_.words_of(BufferId::collision_state));
+  }
+
   std::uint64_t bytes_allocated() const override {
     std::uint64_t bytes = 0;
     for (const auto& buffer : buffers_.vec4) bytes += buffer.size() * sizeof(buffer[0]);
+    for (const auto& buffer : buffers_.words) bytes += buffer.size() * sizeof(buffer[0]);
     return bytes;
   }
 
@@ -64,7 +69,7 @@ class CpuSimulation final : public Simulation {
   void run_block(Block block, const std::vector<KickDrift>& rows, std::uint32_t substep, FrameStats& stats) {
     static constexpr KickDrift kNone;  // what a step after the last row sees when there is no closing one
     for (const PlanStep& step : plan_.steps) {
-      if (step.block != block) continue;
+      if (step.block != block || (block == Block::substep && substep % step.interval != 0)) continue;
       const std::uint32_t row = plan_.table_row(step, substep);
       Precision<T>::mirror (*step.pass)(
           {model_, step.constants, row < rows.size() ? rows[row] : kNone, row, step.item}, buffers_);

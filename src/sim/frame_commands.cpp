@@ -4,30 +4,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
 
 namespace weft {
 
 DispatchOrder::DispatchOrder(const Plan& plan, std::uint32_t substeps, std::uint32_t at_once)
     : substeps_(substeps), at_once_(at_once) {
-  std::uint32_t end = 0;
   for (const PlanStep& step : plan.steps) {
     start_ += step.block == Block::frame_start ? 1 : 0;
     block_ += step.block == Block::substep ? 1 : 0;
-    end += step.block == Block::frame_end ? 1 : 0;
+    end_ += step.block == Block::frame_end ? 1 : 0;
+    period_substeps_ = std::lcm(period_substeps_, step.interval);
   }
-  count_ = start_ + block_ * ((substeps + at_once - 1) / at_once) + end;
+  WEFT_ASSERT(at_once == 1 || (block_ == 1 && period_substeps_ == 1));
+  period_substeps_ *= at_once;
+  std::uint32_t rest = 0;  // dispatches of the substeps after the last whole period
+  for (std::uint32_t k = 0; k < period_substeps_; k += at_once)
+    for (std::size_t step = start_; step < start_ + block_; ++step)
+      if (k % plan.steps[step].interval == 0) {
+        period_.push_back({step, k, at_once});
+        rest += k < substeps % period_substeps_ ? 1 : 0;
+      }
+  end_first_ = start_ + substeps / period_substeps_ * static_cast<std::uint32_t>(period_.size()) + rest;
 }
 
 DispatchOrder::Dispatch DispatchOrder::operator[](std::uint32_t place) const {
   if (place < start_) return {place, 0, 1};
-  const std::uint32_t inside = place - start_, repeats = (substeps_ + at_once_ - 1) / at_once_;
-  if (inside >= block_ * repeats) return {start_ + block_ + (inside - block_ * repeats), substeps_, 1};
-  const std::uint32_t substep = inside / block_ * at_once_;
-  return {start_ + inside % block_, substep, std::min(at_once_, substeps_ - substep)};
+  if (place >= end_first_) return {start_ + block_ + (place - end_first_), substeps_, 1};
+  const std::uint32_t inside = place - start_, whole = static_cast<std::uint32_t>(period_.size());
+  const Dispatch& dispatch = period_[inside % whole];
+  const std::uint32_t substep = inside / whole * period_substeps_ + dispatch.substep;
+  return {dispatch.step, substep, std::min(dispatch.count, substeps_ - substep)};
 }
 
 bool DispatchOrder::independent_of_substeps(std::uint32_t first, std::uint32_t count) const {
-  return first + count <= start_ + block_ * (substeps_ / at_once_);
+  if (at_once_ > 1) return first + count <= start_ + substeps_ / at_once_;  // the last takes what is left
+  return first + count <= end_first_;
 }
 
 FrameCommands::Chunk& FrameCommands::chunk(const ChunkKey& key, const DispatchOrder& order) {

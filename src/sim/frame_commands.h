@@ -11,7 +11,8 @@
 
 namespace weft {
 
-/// A frame's dispatches in order: frame start, the substep block n times, frame end.
+/// A frame's dispatches in order: frame start, the substep block n times (a step with an interval in every so
+/// many of them), frame end.
 class DispatchOrder {
  public:
   struct Dispatch {
@@ -21,14 +22,17 @@ class DispatchOrder {
   };
   /// @param at_once  substeps the kernel takes into one dispatch; 1 unless the block is one pass
   DispatchOrder(const Plan& plan, std::uint32_t substeps, std::uint32_t at_once = 1);
-  std::uint32_t count() const { return count_; }
+  std::uint32_t count() const { return end_first_ + end_; }
   Dispatch operator[](std::uint32_t place) const;
   /// Whether [first, first + count) lies where the order does not depend on n.
   bool independent_of_substeps(std::uint32_t first, std::uint32_t count) const;
 
  private:
-  std::uint32_t start_ = 0, block_ = 0;  // dispatches before the substeps; of one substep
-  std::uint32_t substeps_ = 0, at_once_ = 1, count_ = 0;
+  std::vector<Dispatch> period_;  // the substeps after which the intervals begin anew, numbered from 0
+  std::uint32_t period_substeps_ = 1, substeps_ = 0, at_once_ = 1;
+  std::uint32_t start_ = 0, end_ = 0;  // dispatches before and after the substeps
+  std::uint32_t block_ = 0;            // steps of the substep block
+  std::uint32_t end_first_ = 0;        // place of the first dispatch after the substeps
 };
 
 /// What makes two chunks the same commands.

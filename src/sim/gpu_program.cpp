@@ -28,6 +28,7 @@ VkBufferUsageFlags usage_of(BufferId id) {
     case BufferId::velocity_next: return kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     case BufferId::normal: return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     case BufferId::band_scratch: return kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    case BufferId::collision_state: return kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     default: return kStorage;
   }
 }
@@ -139,9 +140,13 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
     : kernel_(kernel ? *kernel : direct_kernel(device, plan)) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
-    Step& made = steps_.emplace_back(Step{work_for(device, step, buffers, *pipelines, false), {}, step.item});
+    Step& made = steps_.emplace_back(
+        Step{work_for(device, step, buffers, *pipelines, false), {}, step.item, nullptr, 0});
     if (kernel_.substeps > 1 && step.pass == &integrate && step.block == Block::substep)
       made.several = work_for(device, step, buffers, *pipelines, true);
+    if (!step.pass->groups_word) continue;
+    made.groups = &buffers.at(BufferId::collision_state);
+    made.groups_offset = *step.pass->groups_word * sizeof(std::uint32_t);
   }
 }
 
@@ -190,6 +195,9 @@ void GpuProgram::dispatch(gpu::Recorder& recorder, std::size_t step, Parity pari
   const std::array<std::uint32_t, 2> words{row, substeps > 1 ? substeps : place.item};
   const std::size_t taken = used.pipeline->reflection().push_constant_bytes / sizeof(std::uint32_t);
   const auto push = std::as_bytes(std::span(words).first(taken));
+  if (place.groups != nullptr)
+    return recorder.dispatch_indirect(*used.pipeline, used.sets[parity * kFrameSlots + slot], *place.groups,
+                                      place.groups_offset, push);
   recorder.dispatch(*used.pipeline, used.sets[parity * kFrameSlots + slot], work.groups_x, work.groups_y,
                     push);
 }

@@ -76,6 +76,8 @@ class GpuProgram {
     Work one;                     ///< a dispatch of one substep
     std::optional<Work> several;  ///< of more, where the kernel can
     std::uint32_t item;
+    const gpu::Buffer* groups = nullptr;  ///< where an indirect dispatch finds its workgroups
+    VkDeviceSize groups_offset = 0;       ///< bytes
   };
   struct Variant;
   static Variant variant_for(const gpu::Device&, const PlanStep&, const Kernel&, bool several);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "passes/collision.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
 #include "sim/frame_commands.h"
@@ -33,8 +34,8 @@ bool same_commands(const Plan& a, const Plan& b) {
       return c.name == d.name && c.value == d.value;
     };
     return x.pass == y.pass && x.block == y.block && x.range.x == y.range.x && x.range.y == y.range.y &&
-           x.range.offset == y.range.offset && x.row == y.row && x.item == y.item &&
-           std::ranges::equal(x.constants, y.constants, same_constant);
+           x.range.offset == y.range.offset && x.row == y.row && x.interval == y.interval &&
+           x.item == y.item && std::ranges::equal(x.constants, y.constants, same_constant);
   };
   const auto same_buffer = [](const PlanBuffer& x, const PlanBuffer& y) {
     return x.id == y.id && x.bytes == y.bytes;
@@ -59,6 +60,10 @@ class VulkanSimulation final : public GpuSimulation {
         commands_(device, plan_, program_),
         pacer_(options.dispatches_per_submit) {
     write_params();
+    if (model_.scene.self_collision) {
+      const std::vector<std::uint32_t> state = initial_collision_state(model_.grid);
+      buffers_.at(BufferId::collision_state).write(std::as_bytes(std::span(state)));
+    }
     write(start_state(model_));
   }
   ~VulkanSimulation() override {
@@ -82,6 +87,7 @@ class VulkanSimulation final : public GpuSimulation {
   std::uint64_t bytes_expected() const override {
     return plan_.bytes() + scratch_bytes(choice_.kernel, plan_);
   }
+  std::optional<SelfCollisionReport> self_collision() override;
   std::uint32_t submit_count() const override { return submits_; }
   std::vector<double> step_ms() const override { return step_ms_; }
   DrawBuffers draw_buffers() const override {
@@ -157,11 +163,23 @@ void VulkanSimulation::write_params() {
   perturbation_.apply(model_, params);
   for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
     buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
-  if (!buffers_.has(BufferId::constraints)) return;
-  ConstraintRows<float> constraints = constraint_rows<float>(model_);
-  perturbation_.apply(constraints);
-  for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
-    buffers_.at(BufferId::constraints, slot).write(std::as_bytes(std::span(constraints)));
+  if (buffers_.has(BufferId::constraints)) {
+    ConstraintRows<float> constraints = constraint_rows<float>(model_);
+    perturbation_.apply(constraints);
+    for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
+      buffers_.at(BufferId::constraints, slot).write(std::as_bytes(std::span(constraints)));
+  }
+  if (!model_.scene.self_collision) return;
+  const shared::Collision collision = make_collision(model_);
+  buffers_.at(BufferId::collision).write(std::as_bytes(std::span(&collision, 1)));
+}
+
+std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
+  if (!model_.scene.self_collision) return std::nullopt;
+  wait();
+  std::array<std::uint32_t, shared::kCollisionStateWords> words{};
+  buffers_.at(BufferId::collision_state).read(std::as_writable_bytes(std::span(words)));
+  return report_of(words);
 }
 
 void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
@@ -274,8 +292,7 @@ void VulkanSimulation::write(const State& state) {
   wait();
   frame_.order.reset();
   HostBuffers<float> host;
-  for (const BufferId id : state_buffers())
-    host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
+  for (const BufferId id : state_buffers()) host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
   load_state(model_, state, host);
   for (const BufferId id : state_buffers())
     buffers_.at(at_parity(id, parity_)).write(std::as_bytes(std::span(host[id])));

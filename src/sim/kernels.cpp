@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "passes/passes.h"
 #include "plan/buffers.h"
+#include "sim/frame_commands.h"
 
 namespace weft {
 namespace {
@@ -124,9 +125,7 @@ std::uint64_t scratch_bytes(const Kernel& kernel, const Plan& plan) {
 }
 
 std::uint64_t dispatches_with(const Kernel& kernel, const Plan& plan, std::uint32_t substeps) {
-  std::uint64_t once = 0, block = 0;
-  for (const PlanStep& step : plan.steps) (step.block == Block::substep ? block : once) += 1;
-  return once + block * ((substeps + kernel.substeps - 1) / kernel.substeps);
+  return DispatchOrder(plan, substeps, kernel.substeps).count();
 }
 
 }  // namespace weft

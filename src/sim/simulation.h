@@ -2,6 +2,8 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "model/model.h"
@@ -13,6 +15,12 @@ struct FrameStats {
   std::uint32_t substeps = 0;
   std::uint64_t dispatches = 0;
   std::uint64_t spring_evaluations = 0;
+};
+
+/// What self-collision has done since the simulation began.
+struct SelfCollisionReport {
+  std::uint32_t lists_built = 0;    ///< how often the pair lists were made anew
+  std::uint32_t pairs_dropped = 0;  ///< entries that found no room: contacts may have been missed
 };
 
 class Simulation {
@@ -28,7 +36,14 @@ class Simulation {
   virtual State read() = 0;              ///< waits for the device
   virtual void write(const State&) = 0;  ///< positions, velocities, time
   virtual std::uint64_t bytes_allocated() const = 0;
+  /// Waits for the device. Nothing when the scene has no [self_collision].
+  virtual std::optional<SelfCollisionReport> self_collision() = 0;
 };
+
+/// The report in the words of collision_state.
+inline SelfCollisionReport report_of(std::span<const std::uint32_t> collision_state) {
+  return {collision_state[shared::kListsBuilt], collision_state[shared::kPairsDropped]};
+}
 
 /// The CPU reference in float ("f32", and "f32k" with compensated positions) or double ("f64").
 /// @throws Error(Exit::usage) for another precision, or one that the solver does not have

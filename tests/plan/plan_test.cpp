@@ -180,13 +180,50 @@ TEST(Plan, has_a_row_of_the_table_for_each_stage) {
   EXPECT_EQ(compile_plan(model, find_solver("rk4")).dispatches(), 4u * 50 + 1);
 }
 
-TEST(Plan, refuses_self_collision_until_there_are_passes_for_it) {
-  try {
-    plan_of("[cloth]\nresolution = 8\n[self_collision]\nthickness = 0.004\n");
-    FAIL() << "accepted";
-  } catch (const Error& refusal) {
-    EXPECT_EQ(refusal.code(), Exit::usage);
-    EXPECT_NE(std::string(refusal.what()).find("0.004"), std::string::npos);
+const char* const kSelfCollision =
+    "[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n[self_collision]\nthickness = 0.1\n";
+
+/// Passes and bytes that self-collision brings are in the plan of a scene that asks for it, and in no other.
+TEST(Plan, has_self_collision_s_passes_and_bytes_only_where_the_scene_asks) {
+  const Plan with = plan_of(kSelfCollision),
+             without = plan_of("[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n");
+  const std::vector<const Pass*> own = {&pair_check, &cell_count,  &cell_scan,   &cell_fill,
+                                        &cell_sort,  &pair_gather, &touch_count, &self_contact};
+  for (const PlanStep& step : without.steps)
+    EXPECT_EQ(std::ranges::count(own, step.pass), 0) << step.pass->name;
+  for (const PlanBuffer& buffer : without.buffers) EXPECT_LE(buffer.id, BufferId::normal);
+  EXPECT_EQ(reason_for(without, "self-collision"), "the scene has no [self_collision]");
+  EXPECT_EQ(reason_for(with, "self-collision"), "");
+
+  ASSERT_EQ(with.steps.size(), without.steps.size() + own.size());
+  for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(with.steps[k].pass, own[k]);
+  std::uint64_t brought = 0;
+  for (const PlanBuffer& buffer : with.buffers)
+    if (bytes_of(without, buffer.id) == 0) brought += buffer.bytes;
+  EXPECT_EQ(with.bytes(), without.bytes() + brought);
+}
+
+/// In substeps 0, k, 2k, …: ⌈50/k⌉ times a frame.
+TEST(Plan, runs_self_collision_in_every_so_many_substeps) {
+  const Model model = model_of(kSelfCollision);
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  const std::uint32_t interval = plan.steps[0].interval;
+  EXPECT_EQ(interval, 16u);  // at 1 m/s in 50 mm of 0.33 ms steps: 150, cut to the most there is
+  EXPECT_EQ(plan.steps[0].repeat, 4u);
+  EXPECT_EQ(nlohmann::json::parse(to_json(plan, model))["steps"][0]["interval"], interval);
+}
+
+TEST(Plan, refuses_self_collision_with_solvers_that_have_no_passes_for_it) {
+  const Model model = model_of(kSelfCollision);
+  for (const Solver* solver : solvers()) {
+    if (solver->name == "leapfrog") continue;
+    try {
+      compile_plan(model, *solver);
+      FAIL() << solver->name;
+    } catch (const Error& refusal) {
+      EXPECT_EQ(refusal.code(), Exit::usage);
+      EXPECT_NE(std::string(refusal.what()).find(solver->name), std::string::npos);
+    }
   }
 }
 

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// Last third of the counting sort: every particle takes a slot of its bucket, counting its end down to its
+// start. Which of its slots depends on who came first; cell_sort puts that right.
+
+#include "../shared/cells.glsl"
+READS  (vec4, position)
+READS  (uint, collision_state)
+UPDATES(uint, cells)
+WRITES (uint, cell_arrivals)
+
+layout(local_size_x = kCollisionGroup) in;
+
+void main() {
+  if (collision_state[kListGroups] == 0u) return;
+  Cells c = cells_of_cloth();
+  Own own;
+  if (!own_particle(c, own)) return;
+  uint bucket = bucket_of(c, cell_of(c, position[own.particle].xyz, own.particle));
+  uint slot = atomicAdd(cells[bucket], 0xffffffffu) - 1u;
+  cell_arrivals[slot] = own.place;
+}

@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "../shared/pass.glsl"
+
+// Makes the fill stable: within its bucket a particle stands where its index says, whoever came first.
+// Each invocation counts the smaller places of its own bucket and writes one slot, its own: no races.
+
+#include "../shared/cells.glsl"
+READS (vec4, position)
+READS (uint, collision_state)
+READS (uint, cells)
+READS (uint, cell_arrivals)
+WRITES(uint, cell_members)
+
+layout(local_size_x = kCollisionGroup) in;
+
+void main() {
+  if (collision_state[kListGroups] == 0u) return;
+  Cells c = cells_of_cloth();
+  Own own;
+  if (!own_particle(c, own)) return;
+  uint bucket = bucket_of(c, cell_of(c, position[own.particle].xyz, own.particle));
+  uint start = cells[bucket], end = cells[bucket + 1u], smaller = 0u;
+  for (uint slot = start; slot < end; ++slot) smaller += cell_arrivals[slot] < own.place ? 1u : 0u;
+  cell_members[start + smaller] = own.place;
+}

@@ -1,0 +1,84 @@
+// Self-collision's grid and places: docs/float-form.md "Self-collision". The including pass includes
+// pass.glsl first.
+#include "collision.h"
+
+READS(Collision, collision)
+
+// What is the same for all invocations, read once: a software device pays for every load.
+struct Cells {
+  uint nx, ny, count, column_bits, bucket_mask, limit_last;
+  float inverse_cell_1_m;
+};
+
+Cells cells_of_cloth() {
+  Cells c;
+  c.nx = params.nx;
+  c.ny = params.ny;
+  c.count = c.nx * c.ny;
+  c.column_bits = collision[0].column_bits;
+  c.bucket_mask = collision[0].bucket_mask;
+  c.limit_last = collision[0].limit_last;
+  c.inverse_cell_1_m = collision[0].inverse_cell_1_m;
+  return c;
+}
+
+// Where this invocation's particle is.
+struct Own {
+  uint i, j, particle, place;
+};
+
+bool own_particle(Cells c, out Own own) {
+  own.i = gl_GlobalInvocationID.x;
+  own.j = gl_GlobalInvocationID.y;
+  own.particle = own.j * c.nx + own.i;
+  own.place = (own.j << c.column_bits) | own.i;
+  return own.i < c.nx && own.j < c.ny;
+}
+
+uvec2 column_and_row(Cells c, uint place) {
+  return uvec2(place & ((1u << c.column_bits) - 1u), place >> c.column_bits);
+}
+
+uint particle_at(Cells c, uint place) {
+  uvec2 ij = column_and_row(c, place);
+  return ij.y * c.nx + ij.x;
+}
+
+// Whether the grid covers the place: not when it is too far away, or no number.
+bool covered(Cells c, vec3 x) {
+  precise vec3 scaled = x * c.inverse_cell_1_m;
+  return abs(scaled.x) < kCellsFromOriginMax && abs(scaled.y) < kCellsFromOriginMax &&
+         abs(scaled.z) < kCellsFromOriginMax;
+}
+
+// A particle that the grid does not cover is alone in a cell of its own.
+ivec3 cell_of(Cells c, vec3 x, uint particle) {
+  precise vec3 scaled = floor(x * c.inverse_cell_1_m);
+  return covered(c, x) ? ivec3(scaled) : ivec3(int(particle), 0x40000000, 0x40000000);
+}
+
+// The lowest of the eight cells that hold everything within half a cell's edge.
+ivec3 corner_cell(Cells c, vec3 x) {
+  precise vec3 scaled = x * c.inverse_cell_1_m;
+  scaled = floor(scaled - 0.5);
+  return ivec3(scaled);
+}
+
+// Source: Teschner et al. 2003, Optimized spatial hashing for collision detection, section 3.
+uint bucket_of(Cells c, ivec3 cell) {
+  uvec3 u = uvec3(cell);
+  return ((u.x * 73856093u) ^ (u.y * 19349663u) ^ (u.z * 83492791u)) & c.bucket_mask;
+}
+
+// The row of `limits` that holds for a pair of places.
+uint limit_row(Cells c, Own own, uint place) {
+  uvec2 other = column_and_row(c, place);
+  int di = min(abs(int(other.x) - int(own.i)), kOffsetMax);
+  int dj = min(abs(int(other.y) - int(own.j)), kOffsetMax);
+  return min(uint(di * di + dj * dj), c.limit_last);
+}
+
+float squared_length(vec3 d) {
+  precise float q = (d.x * d.x + d.y * d.y) + d.z * d.z;
+  return q;
+}

@@ -1,0 +1,37 @@
+// cell_scan: counts become the ends of the buckets. Declaration and CPU mirror.
+#include <numeric>
+
+#include "passes/collision.h"
+#include "passes/passes.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!lists_stale(buffers)) return;
+  auto& cells = buffers.words_of(BufferId::cells);
+  std::partial_sum(cells.begin(), cells.end() - 1, cells.begin());
+  cells.back() = context.model.grid.count();
+  ++buffers.words_of(BufferId::collision_state)[shared::kListsBuilt];
+}
+
+/// One workgroup.
+Range domain(const Model& model) { return model.scene.self_collision ? Range{.x = 1, .y = 1} : Range{}; }
+
+}  // namespace
+
+const Pass cell_scan{
+    .name = "cell_scan",
+    .about = "self-collision: prefix sum, from counts to the ends of the buckets",
+    .domain = domain,
+    .constants = no_pass_constants,
+    .spring_evaluations = no_pass_springs,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .swaps_state = false,
+    .interval = contact_interval,
+    .groups_word = shared::kScanGroups,
+};
+
+}  // namespace weft

@@ -1,0 +1,33 @@
+// cell_sort: the members of each bucket in ascending order. Declaration and CPU mirror.
+#include "passes/collision.h"
+#include "passes/passes.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
+  if (!lists_stale(buffers)) return;
+  const auto& cells = buffers.words_of(BufferId::cells);
+  auto& members = buffers.words_of(BufferId::cell_members);
+  members = buffers.words_of(BufferId::cell_arrivals);
+  for (std::size_t b = 0; b + 1 < cells.size(); ++b)
+    std::sort(members.begin() + cells[b], members.begin() + cells[b + 1]);
+}
+
+}  // namespace
+
+const Pass cell_sort{
+    .name = "cell_sort",
+    .about = "self-collision: makes the fill stable",
+    .domain = collision_domain,
+    .constants = no_pass_constants,
+    .spring_evaluations = no_pass_springs,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .swaps_state = false,
+    .interval = contact_interval,
+    .groups_word = shared::kListGroups,
+};
+
+}  // namespace weft

@@ -1,0 +1,135 @@
+// Self-collision as numbers: the limits of pairs, the grid's cells and the room of the lists, from the model;
+// and what the mirrors of its passes share. Operation by operation as docs/float-form.md "Self-collision".
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "passes/host_buffers.h"
+#include "passes/pass.h"
+
+namespace weft {
+
+/// Sizes that follow from the model; only for scenes with [self_collision].
+struct CollisionLayout {
+  double thickness_m;
+  double skin_m;              ///< how much nearer than listed a pair may come before the lists are made anew
+  double cell_m;              ///< edge of the grid's cubes: at least twice thickness + skin
+  std::uint32_t limit_last;   ///< row of the limits of pairs that are far apart on the cloth
+  std::uint32_t column_bits;  ///< of a place, for the column
+  std::uint32_t buckets;      ///< a power of two, at least the number of particles
+  std::uint32_t capacity;     ///< entries a particle's list has room for
+  std::uint32_t centre;       ///< the particle that motion is measured against
+};
+
+/// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth.
+CollisionLayout collision_layout(const Model& model);
+
+/// The distance [m] that a pair keeps whose distance on the flat cloth is `flat_m`: the thickness, or less
+/// where the pair is so near on the cloth that a fold of that thickness brings it nearer (docs/physics.md).
+double pair_limit_m(double thickness_m, double flat_m);
+
+/// Every how many substeps of that length pairs are looked at: as many as leave no two particles time to come
+/// nearer by more than half the thickness at the speed of the fastest fall the scene allows; at most 16.
+std::uint32_t contact_interval(const Model& model, double substep_s);
+
+/// The block that the device reads.
+shared::Collision make_collision(const Model& model);
+
+/// Whole cloth, or nothing when the scene has no [self_collision].
+Range collision_domain(const Model& model);
+Constants no_pass_constants(const Model&);
+std::uint64_t no_pass_springs(const Model&);
+
+/// A pair's limit as the passes read it.
+template <class T>
+struct PairLimit {
+  T limit, squared, reach_squared;
+};
+
+/// Entry m: pairs di² + dj² = m cells² apart on the cloth; the last: all others. In double, to be rounded
+/// once.
+std::vector<PairLimit<double>> pair_limits(const Model& model, const CollisionLayout& layout);
+
+/// What the mirrors read, in T.
+template <class T>
+struct CollisionView {
+  const Grid& grid;
+  CollisionLayout layout;
+  std::vector<PairLimit<T>> limits;
+  T inverse_cell, moved_squared_max;
+
+  explicit CollisionView(const Model& model)
+      : grid(model.grid), layout(collision_layout(model)), limits(layout.limit_last + 1) {
+    const auto exact = pair_limits(model, layout);
+    std::ranges::transform(exact, limits.begin(), [](const PairLimit<double>& p) {
+      return PairLimit<T>{static_cast<T>(p.limit), static_cast<T>(p.squared),
+                          static_cast<T>(p.reach_squared)};
+    });
+    inverse_cell = static_cast<T>(1.0 / layout.cell_m);
+    moved_squared_max = static_cast<T>(moved_squared_max_m2(layout));
+  }
+
+  /// Slightly less than half the skin, so that rounding cannot hide a pair.
+  static double moved_squared_max_m2(const CollisionLayout& layout) {
+    return std::pow(0.499 * layout.skin_m, 2);
+  }
+
+  std::uint32_t place_of(std::uint32_t particle) const {
+    return (particle / grid.nx) << layout.column_bits | particle % grid.nx;
+  }
+  std::uint32_t particle_at(std::uint32_t place) const {
+    const std::uint32_t columns = (1u << layout.column_bits) - 1;
+    return (place >> layout.column_bits) * grid.nx + (place & columns);
+  }
+
+  using Cell = std::array<std::int32_t, 3>;
+  bool covered(const glm::vec<4, T>& x) const {
+    const T most = static_cast<T>(shared::kCellsFromOriginMax);
+    return std::abs(x.x * inverse_cell) < most && std::abs(x.y * inverse_cell) < most &&
+           std::abs(x.z * inverse_cell) < most;
+  }
+  Cell cell_of(const glm::vec<4, T>& x, std::uint32_t particle) const {
+    if (!covered(x)) return {static_cast<std::int32_t>(particle), 0x40000000, 0x40000000};
+    return rounded_down(x, T(0));
+  }
+  /// The lowest of the eight cells that hold everything within half a cell's edge of x.
+  Cell corner_cell(const glm::vec<4, T>& x) const { return rounded_down(x, T(0.5)); }
+  Cell rounded_down(const glm::vec<4, T>& x, T less) const {
+    Cell cell{};
+    for (int axis = 0; axis < 3; ++axis)
+      cell[static_cast<std::size_t>(axis)] =
+          static_cast<std::int32_t>(std::floor(x[axis] * inverse_cell - less));
+    return cell;
+  }
+
+  std::uint32_t bucket_of(const Cell& cell) const {
+    constexpr std::array<std::uint32_t, 3> kPrimes{73856093u, 19349663u, 83492791u};
+    std::uint32_t hash = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      hash ^= static_cast<std::uint32_t>(cell[axis]) * kPrimes[axis];
+    return hash & (layout.buckets - 1);
+  }
+
+  const PairLimit<T>& limit(std::uint32_t a, std::uint32_t b) const {
+    const auto apart = [](std::uint32_t p, std::uint32_t q) { return std::uint64_t{p > q ? p - q : q - p}; };
+    const std::uint64_t di = apart(a % grid.nx, b % grid.nx), dj = apart(a / grid.nx, b / grid.nx);
+    return limits[std::min(di * di + dj * dj, std::uint64_t{layout.limit_last})];
+  }
+};
+
+template <class T>
+T squared_distance(const glm::vec<4, T>& a, const glm::vec<4, T>& b) {
+  const T x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+  return (x * x + y * y) + z * z;
+}
+
+/// Whether the lists are being made anew: what the passes between pair_check and pair_gather ask first.
+template <class T>
+bool lists_stale(const HostBuffers<T>& buffers) {
+  return buffers.words_of(BufferId::collision_state)[shared::kListGroups] != 0;
+}
+
+}  // namespace weft
