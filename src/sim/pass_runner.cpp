@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
+#include "passes/collision.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
 
@@ -25,9 +25,8 @@ void fill_pattern(std::span<std::byte> bytes) {
 }
 
 void fill_poison(std::span<std::byte> bytes) {
-  const float poison = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t word = 0; word < bytes.size() / sizeof(float); ++word)
-    std::memcpy(bytes.data() + word * sizeof(float), &poison, sizeof(float));
+  for (std::size_t word = 0; word < bytes.size() / sizeof kPoison; ++word)
+    std::memcpy(bytes.data() + word * sizeof kPoison, &kPoison, sizeof kPoison);
 }
 
 }  // namespace
@@ -68,8 +67,13 @@ std::map<BufferId, PassRunner::Bytes> PassRunner::contents(std::size_t step, con
       ConstraintRows<float> constraints = constraint_rows<float>(model_);
       perturbation_.apply(constraints);
       std::memcpy(bytes.data(), constraints.data(), bytes.size());
+    } else if (id == BufferId::collision) {
+      const shared::Collision collision = make_collision(model_);
+      std::memcpy(bytes.data(), &collision, sizeof collision);
     } else if (const Use use = use_of(step, id); use.writes && !use.reads) {
       fill_poison(bytes);
+    } else if (!input.words_of(id).empty()) {
+      std::memcpy(bytes.data(), input.words_of(id).data(), bytes.size());
     } else if (!input[id].empty()) {
       std::memcpy(bytes.data(), input[id].data(), bytes.size());
     }
@@ -98,8 +102,13 @@ PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, st
       buffers_.at(id, slot).read(after);
       if (!output && after != bytes) result.touched.push_back(id);
       if (slot_count(id) > 1) continue;
-      result.buffers[id].resize(after.size() / sizeof(shared::vec4));
-      std::memcpy(result.buffers[id].data(), after.data(), after.size());
+      if (holds_words(id)) {
+        result.buffers.words_of(id).resize(after.size() / sizeof(std::uint32_t));
+        std::memcpy(result.buffers.words_of(id).data(), after.data(), after.size());
+      } else if (row_of(id).element == "vec4") {
+        result.buffers[id].resize(after.size() / sizeof(glm::vec4));
+        std::memcpy(result.buffers[id].data(), after.data(), after.size());
+      }
     }
   }
   return result;

@@ -53,6 +53,22 @@ State in_contact(const Model& model, const State& from) {
   return state;
 }
 
+/// Folds the cloth about its middle column onto itself, half a thickness apart and somewhat uneven, with the
+/// layers closing: layers that touch.
+State folded(const Model& model, const State& from) {
+  const Grid& grid = model.grid;
+  const double thickness_m = 2.0 * model.half_thickness_m;
+  State state = from;
+  for (std::uint32_t j = 0; j < grid.ny; ++j)
+    for (std::uint32_t i = grid.nx / 2; i < grid.nx; ++i) {
+      const std::uint32_t p = grid.index(i, j), under = grid.index(grid.nx - 1 - i, j);
+      state.position[p] =
+          from.position[under] + 0.5 * thickness_m * (glm::dvec3(0.2, 1.0, 0.6) + 0.3 * noise3(p));
+      state.velocity[p] = from.velocity[under] + glm::dvec3(0.1, -1.0, -0.5);
+    }
+  return state;
+}
+
 }  // namespace
 
 std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
@@ -65,6 +81,7 @@ std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
   states.push_back({"shaken", shaken(model, states[0].state)});
   if (model.scene.floor || !model.scene.spheres.empty())
     states.push_back({"in contact", in_contact(model, states[2].state)});
+  if (model.scene.self_collision) states.push_back({"folded", folded(model, states[0].state)});
   return states;
 }
 

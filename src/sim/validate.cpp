@@ -2,6 +2,7 @@
 #include "sim/validate.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -64,6 +65,7 @@ void judge(ValidationRow& row, const Difference& apart, const std::optional<Allo
 
 HostBuffers<double> in_double(const HostBuffers<float>& host) {
   HostBuffers<double> wide;
+  wide.words = host.words;
   for (std::size_t b = 0; b < kBufferCount; ++b)
     wide.vec4[b].assign(host.vec4[b].begin(), host.vec4[b].end());
   return wide;
@@ -134,8 +136,10 @@ void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
             .rows = solver_.schedule(probe.state.time_s, model_.scene.solver.frame_s, n),
             .host = {}};
   walk.rows.resize(plan_.row_count());  // a closing row of zeros where the schedule has none
-  for (const PlanBuffer& buffer : plan_.buffers)
-    if (buffer.id == BufferId::compensation) walk.host[buffer.id].resize(2 * model_.grid.count());
+  size_buffers(plan_, model_, walk.host);
+  for (const PlanBuffer& buffer : plan_.buffers)  // what no pass has written yet is the runner's to fill
+    if (buffer.id != BufferId::built_position && buffer.id != BufferId::compensation)
+      walk.host[buffer.id].clear();
   load_state(model_, probe.state, walk.host);
   const auto check_block = [&](Block block, std::uint32_t substep) {
     for (std::size_t step = 0; step < plan_.steps.size(); ++step)
@@ -146,23 +150,69 @@ void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
   check_block(Block::frame_end, n);
 }
 
+bool is_poison(float value) { return std::bit_cast<std::uint32_t>(value) == kPoison; }
+
+void poison(HostBuffers<float>& host, BufferId id) {
+  std::ranges::fill(host.words_of(id), kPoison);
+  std::ranges::fill(host[id], glm::vec4(std::bit_cast<float>(kPoison)));
+}
+
+/// Where neither side wrote, the buffer holds what it held before, on both.
+void restore_unwritten(BufferId id, const HostBuffers<float>& before, HostBuffers<float>& got,
+                       HostBuffers<float>& expected) {
+  const auto& words = before.words_of(id);
+  for (std::size_t k = 0; k < words.size(); ++k)
+    if (got.words_of(id)[k] == kPoison && expected.words_of(id)[k] == kPoison)
+      got.words_of(id)[k] = expected.words_of(id)[k] = words[k];
+  const auto& vectors = before[id];
+  for (std::size_t p = 0; p < vectors.size(); ++p)
+    for (int c = 0; c < 4; ++c)
+      if (is_poison(got[id][p][c]) && is_poison(expected[id][p][c]))
+        got[id][p][c] = expected[id][p][c] = vectors[p][c];
+}
+
+/// Integers must be equal on every device.
+void judge_words(ValidationRow& row, const std::vector<std::uint32_t>& got,
+                 const std::vector<std::uint32_t>& expected) {
+  for (std::size_t k = 0; k < std::min(got.size(), expected.size()); ++k)
+    row.max_abs =
+        std::max(row.max_abs, std::abs(static_cast<double>(got[k]) - static_cast<double>(expected[k])));
+  row.ok = got == expected;
+  row.verdict = row.ok ? "exact" : "over tolerance";
+}
+
+/// Runs one step on the device and by its mirror, both from the walk's buffers; what the mirror leaves there
+/// is what the next step finds.
 void Validator::check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk) {
   const PlanStep& planned = plan_.steps[step];
   const ProbeState& probe = walk.probe;
   HostBuffers<float>& host = walk.host;
   const std::uint32_t row_index = plan_.table_row(planned, substep);
-  const PassResult result = runner.run(step, host, walk.rows, row_index);
+  const HostBuffers<float> before = host;
+  PassResult result = runner.run(step, host, walk.rows, row_index);
   const MirrorContext context{model_, planned.constants, walk.rows[row_index], row_index, planned.item};
   HostBuffers<double> wide;
   if (!report_.exact_required) {
     wide = in_double(host);
     planned.pass->mirror_f64(context, wide);
   }
+  for (const BufferId id : result.outputs)
+    if (!runner.use_of(step, id).reads) poison(host, id);
   planned.pass->mirror_f32(context, host);
+  if (planned.pass->settle_order) {
+    planned.pass->settle_order(model_, result.buffers);
+    planned.pass->settle_order(model_, host);
+  }
 
   const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
   for (const BufferId id : result.outputs) {
     ValidationRow row{.check = check, .state = probe.name, .buffer = std::string(row_of(id).name)};
+    restore_unwritten(id, before, result.buffers, host);
+    if (holds_words(id)) {
+      judge_words(row, result.buffers.words_of(id), host.words_of(id));
+      report_.rows.push_back(std::move(row));
+      continue;
+    }
     std::optional<Allowance> allowed;
     if (!report_.exact_required) allowed = allowance(difference(host[id], wide[id]), host[id].size(), held_);
     judge(row, difference(result.buffers[id], host[id]), allowed);
