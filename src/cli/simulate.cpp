@@ -117,13 +117,14 @@ Exit run(const Options& asked) {
   if (output) output->finish(outcome.state);
   print_summary(o, setup.scene(), summarize(setup, machine, outcome));
   if (o.verbose) print_details(machine, outcome);
-  if (!o.check) return Exit::ok;
+  const bool vouched = report_self_collision(o, *machine.simulation);
+  if (!o.check) return vouched ? Exit::ok : Exit::tolerance;
   const std::string verdicts = describe(outcome.verdicts);
   if (o.format == Format::human)
     print_result(verdicts);
   else
     std::cerr << verdicts;
-  return all_hold(outcome.verdicts) ? Exit::ok : Exit::tolerance;
+  return vouched && all_hold(outcome.verdicts) ? Exit::ok : Exit::tolerance;
 }
 
 void add_options(CLI::App& app, Options& o) {
