@@ -101,6 +101,21 @@ void print_details(const Machine& machine, const Outcome& outcome) {
                            plan.substeps, device.bytes_expected());
 }
 
+/// Says what self-collision did; false when pairs found no room in its lists.
+bool report_self_collision(const Options& o, Simulation& simulation) {
+  const std::optional<SelfCollisionReport> report = simulation.self_collision();
+  if (!report) return true;
+  if (o.verbose)
+    std::cerr << fmt::format("weft: self-collision made its lists {} times\n", report->lists_built);
+  if (report->pairs_dropped == 0) return true;
+  std::cerr << fmt::format(
+      "weft: self-collision: {} pairs found no room in the lists, so that contacts may have been missed: the "
+      "cloth is crowded beyond what its thickness allows (raise cloth.resolution, or look for what crushes "
+      "it)\n",
+      report->pairs_dropped);
+  return false;
+}
+
 Exit run(const Options& asked) {
   const std::string& name = only_scene(asked);
   const Options o =
