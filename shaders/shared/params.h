@@ -6,7 +6,7 @@
 
 WEFT_SHARED_BEGIN
 
-WEFT_CONST uint kMaxSpheres = 64u;           // documented limit of [[spheres]]
+WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
 WEFT_CONST float kTinyLengthSquared = 1e-24f;  // m², guards 1/length of coincident particles
 
 // A spring's coefficients in the folded float form, physics page "The float form":
@@ -21,9 +21,9 @@ struct Params {
   float inverse_mass_1_kg;  // of an interior particle; position.w scales it (0 pinned, 1, 2 edge, 4 corner)
   float floor_height_m;     // the surface a particle rests on: floor plus half the cloth's thickness
   float floor_friction;
-  uint nx, ny;              // particles along i and j
+  uint nx, ny;  // particles along i and j
   uint sphere_count;
-  uint row_stride;          // vec4s from one row of the substep table to the next
+  uint row_stride;  // vec4s from one row of the substep table to the next
 };
 
 // The substep table is an array of vec4; row r starts at r·row_stride and belongs to dispatch r of the
