@@ -42,7 +42,19 @@ endif()
 # For code that is not hot (the command line, the tests): compiles in two thirds of the time.
 set(WEFT_COLD $<$<CONFIG:Release>:-O1>)
 
+# Two thirds of a build from scratch are the same headers read again: without a cache, several files of a folder
+# are compiled as one. With ccache every file is cached by itself, so that a change compiles little.
 find_program(WEFT_CCACHE ccache)
 if(WEFT_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${WEFT_CCACHE})
+  set(WEFT_UNITY_DEFAULT OFF)
+else()
+  set(WEFT_UNITY_DEFAULT ON)
+endif()
+option(WEFT_UNITY "compile the files of a folder together" ${WEFT_UNITY_DEFAULT})
+if(WEFT_UNITY AND NOT WEFT_TIDY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  # A joined file includes the sources, so g++ takes what they keep to themselves for a header's.
+  target_compile_options(weft_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()

@@ -62,7 +62,7 @@ std::string csv_of(const std::vector<BenchReport>& reports) {
   return to_text(all, Format::csv);
 }
 
-Exit run(const Options& o) {
+Exit run_bench(const Options& o) {
   if (o.on_cpu())
     throw Error(
         Exit::usage,
@@ -94,6 +94,6 @@ const Command bench{"bench", "times the passes at 64 to 1024 particles a side (o
                     "  weft bench\n"
                     "  weft bench 1 4 --resolution 256\n"
                     "  weft bench 1 --format json > bench.json",
-                    add_scenes, run};
+                    add_scenes, run_bench};
 
 }  // namespace weft::cli

@@ -79,12 +79,12 @@ Options with_chosen_setting(const Options& asked, const std::string& scene_name,
   const Scene scene = open_scene(quiet, scene_name);
   const double time_s = run_time_s(scene);
   refuse_contradictions(asked, time_s);
-  const study::Study study = study_of(asked, scene, time_s);
+  const study::Study kept = study_of(asked, scene, time_s);
   std::vector<study::Point> points;
-  for (const study::Point& point : study.promises_at(scene.cloth.resolution))
+  for (const study::Point& point : kept.promises_at(scene.cloth.resolution))
     if (!asked.precision || point.setting.precision == *asked.precision) points.push_back(point);
-  const study::Point chosen = choose(asked, study, points);
-  note(asked, "chosen: " + described(chosen, study.frame_s));
+  const study::Point chosen = choose(asked, kept, points);
+  note(asked, "chosen: " + described(chosen, kept.frame_s));
   Options options = asked;
   options.solver = chosen.setting.solver;
   options.precision = chosen.setting.precision;

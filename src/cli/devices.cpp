@@ -29,7 +29,7 @@ std::vector<nlohmann::ordered_json> row_of(const gpu::DeviceInfo& info) {
           info.unusable.empty() ? "yes" : "no: " + info.unusable};
 }
 
-Exit run(const Options& o) {
+Exit run_devices(const Options& o) {
   Table table{{"index", "name", "type", "software", "driver", "vulkan", "memory_mib", "uuid", "usable"}, {}};
   const std::vector<gpu::DeviceInfo> found = gpu::list_devices();
   for (const gpu::DeviceInfo& info : found) table.rows.push_back(row_of(info));
@@ -44,6 +44,6 @@ Exit run(const Options& o) {
 
 const Command devices{"devices", "lists the devices, best first",
                       "  weft devices\n  weft simulate 1 --device 0 --time 0.5", [](CLI::App&, Options&) {},
-                      run};
+                      run_devices};
 
 }  // namespace weft::cli

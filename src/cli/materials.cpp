@@ -11,7 +11,7 @@ MaterialSection read_preset(const std::string& name) {
   return parse_scene("[cloth]\n[material]\npreset = \"" + name + "\"\n", name).scene.material;
 }
 
-Exit run(const Options& o) {
+Exit run_materials(const Options& o) {
   Table table{{"name", "title", "density_kg_m2", "membrane_n_m", "shear_n_m", "flex", "bend_n_m", "damping_s",
                "damping_ratio_max", "file"},
               {}};
@@ -28,6 +28,6 @@ Exit run(const Options& o) {
 
 const Command materials{"materials", "lists the materials and their constants",
                         "  weft materials\n  weft simulate 1 --material denim --time 1",
-                        [](CLI::App&, Options&) {}, run};
+                        [](CLI::App&, Options&) {}, run_materials};
 
 }  // namespace weft::cli

@@ -19,7 +19,7 @@ std::string steps_as_csv(const Plan& plan) {
   return to_text(table, Format::csv);
 }
 
-Exit run(const Options& o) {
+Exit run_plan(const Options& o) {
   const Setup setup = set_up(o, only_scene(o));
   const Plan compiled = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
   std::string text;
@@ -37,6 +37,6 @@ Exit run(const Options& o) {
 
 const Command plan{"plan",
                    "prints the passes, constants, ranges and buffers of a scene, and what is left out",
-                   "  weft plan 1\n  weft plan 5 --resolution 256 --format json", add_scene, run};
+                   "  weft plan 1\n  weft plan 5 --resolution 256 --format json", add_scene, run_plan};
 
 }  // namespace weft::cli

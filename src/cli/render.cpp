@@ -112,7 +112,7 @@ Outcome film_scene(const Options& o, const Machine& machine, OffscreenRenderer& 
   return outcome;
 }
 
-Exit run(const Options& asked) {
+Exit run_render(const Options& asked) {
   const std::string& name = only_scene(asked);
   if (!asked.out)
     throw Error(Exit::usage,
@@ -141,7 +141,7 @@ Exit run(const Options& asked) {
   return Exit::ok;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_render_options(CLI::App& app, Options& o) {
   add_scene(app, o);
   add_choice_options(app, o);
   add_out(app, o, "FILE.mp4, FILE.png (the end), or DIR/frame-%04d.png (every picture; makes its folder)");
@@ -154,6 +154,6 @@ const Command render{"render", "draws a scene into a picture or a film",
                      "  weft render 1 --time 2 --out hung.png\n"
                      "  weft render 5 --out drop.mp4 --size 960x540 --fps 30\n"
                      "  weft render 4 --time 1 --out frames/frame-%04d.png --wireframe",
-                     add_options, run};
+                     add_render_options, run_render};
 
 }  // namespace weft::cli

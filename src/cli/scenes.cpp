@@ -6,7 +6,7 @@
 namespace weft::cli {
 namespace {
 
-Exit run(const Options& o) {
+Exit run_scenes(const Options& o) {
   Table table{{"number", "name", "title", "file"}, {}};
   int number = 0;
   for (const AssetInfo& asset : list_scenes())
@@ -18,6 +18,6 @@ Exit run(const Options& o) {
 }  // namespace
 
 const Command scenes{"scenes", "lists the scenes", "  weft scenes\n  weft scenes --format json",
-                     [](CLI::App&, Options&) {}, run};
+                     [](CLI::App&, Options&) {}, run_scenes};
 
 }  // namespace weft::cli

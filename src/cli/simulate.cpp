@@ -116,7 +116,7 @@ bool report_self_collision(const Options& o, Simulation& simulation) {
   return false;
 }
 
-Exit run(const Options& asked) {
+Exit run_simulate(const Options& asked) {
   const std::string& name = only_scene(asked);
   const Options o =
       with_chosen_setting(asked, name, [&](const Scene& scene) { return run_time_s(asked, scene); });
@@ -142,7 +142,7 @@ Exit run(const Options& asked) {
   return vouched && all_hold(outcome.verdicts) ? Exit::ok : Exit::tolerance;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_simulate_options(CLI::App& app, Options& o) {
   add_scene(app, o);
   add_choice_options(app, o);
   add_out(app, o, "write the final state: .csv, .ply or .obj; .pc2 holds every frame");
@@ -157,6 +157,6 @@ const Command simulate{"simulate", "runs a scene without pictures and sums it up
                        "  weft simulate 4 --device cpu --precision f64 --time 0.5 --out state.csv\n"
                        "  weft simulate 1 --set wind.velocity=[0,0,5] --time 1 --format json\n"
                        "  weft simulate 2 --check",
-                       add_options, run};
+                       add_simulate_options, run_simulate};
 
 }  // namespace weft::cli

@@ -6,7 +6,7 @@
 namespace weft::cli {
 namespace {
 
-Exit run(const Options& o) {
+Exit run_solvers(const Options& o) {
   Table table{{"name", "order", "on_gpu", "forces_per_substep", "about", "source"}, {}};
   for (const Solver* solver : weft::solvers())
     table.rows.push_back({std::string(solver->name), solver->order, solver->on_gpu,
@@ -20,6 +20,6 @@ Exit run(const Options& o) {
 
 const Command solvers{"solvers", "lists the solvers",
                       "  weft solvers\n  weft simulate 1 --device cpu --solver leapfrog --time 0.5",
-                      [](CLI::App&, Options&) {}, run};
+                      [](CLI::App&, Options&) {}, run_solvers};
 
 }  // namespace weft::cli

@@ -93,7 +93,7 @@ void print(const Options& o, const study::Study& study, const study::ReportFiles
   print_result(text);
 }
 
-Exit run(const Options& o) {
+Exit run_study(const Options& o) {
   refuse_contradictions(o);
   const std::string& name = only_scene(o);
   const Scene scene = open_scene(for_scene(o), name);
@@ -129,7 +129,7 @@ Exit run(const Options& o) {
   return Exit::ok;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_sweep_options(CLI::App& app, Options& o) {
   add_scene(app, o);
   add_out(app, o, "the folder for the report; made when it is not there");
   add_study_options(app, o);
@@ -141,6 +141,6 @@ const Command study{"study", "measures what accuracy costs: every solver, subste
                     "  weft study 1 --out study-1 --quick\n"
                     "  weft study 2 --out study-2 --time 0.5 --resolutions 20,40\n"
                     "  weft study 5 --out study-5 --solvers leapfrog,rk4 --device cpu",
-                    add_options, run};
+                    add_sweep_options, run_study};
 
 }  // namespace weft::cli

@@ -84,7 +84,7 @@ void require_effect(const Options& o, const std::vector<Setup>& setups) {
       in_quotes(o.perturb));
 }
 
-Exit run(const Options& o) {
+Exit run_validate(const Options& o) {
   if (o.on_cpu())
     throw Error(
         Exit::usage,
@@ -111,7 +111,7 @@ Exit run(const Options& o) {
   return ok ? Exit::ok : Exit::tolerance;
 }
 
-void add_options(CLI::App& app, Options& o) {
+void add_validate_options(CLI::App& app, Options& o) {
   add_scenes(app, o);
   app.add_option_function<std::string>(
          "--perturb",
@@ -132,6 +132,6 @@ const Command validate{"validate", "compares the device with the CPU reference; 
                        "  weft validate\n"
                        "  weft validate 1 5 --format csv\n"
                        "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
-                       add_options, run};
+                       add_validate_options, run_validate};
 
 }  // namespace weft::cli

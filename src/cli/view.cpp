@@ -10,7 +10,7 @@ namespace weft::cli {
 namespace {
 
 #ifdef WEFT_HAS_VIEWER
-Exit run(const Options& o) {
+Exit run_view(const Options& o) {
   refuse_second_scene(o);
   ViewerOptions window;
   if (!o.scenes.empty())
@@ -25,7 +25,7 @@ Exit run(const Options& o) {
 }
 #else
 /// @throws Error(Exit::usage), after checking that the word is a scene: a mistyped command is said to be one
-Exit run(const Options& o) {
+Exit run_view(const Options& o) {
   refuse_second_scene(o);
   if (!o.scenes.empty()) find_scene(o.scenes.front());
   const std::string scene = o.scenes.empty() ? "1" : o.scenes.front();
@@ -38,6 +38,7 @@ Exit run(const Options& o) {
 
 }  // namespace
 
-const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_scene, run};
+const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_scene,
+                   run_view};
 
 }  // namespace weft::cli

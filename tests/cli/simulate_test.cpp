@@ -11,7 +11,7 @@
 namespace weft::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// `weft simulate 1` at 5 × 5 particles on the CPU, with more words behind.
 Arguments small(const Arguments& more) {
@@ -20,16 +20,16 @@ Arguments small(const Arguments& more) {
   return all;
 }
 
-Json summary(const Arguments& arguments) {
+OrderedJson summary(const Arguments& arguments) {
   Arguments all = arguments;
   all.insert(all.end(), {"--format", "json"});
   const Result result = weft(all);
   EXPECT_CODE(result, 0);
-  return Json::parse(result.out);
+  return OrderedJson::parse(result.out);
 }
 
 TEST(Simulate, JsonHasExactlyTheDocumentedKeys) {
-  const Json object = summary(small({"--time", "0.1"}));
+  const OrderedJson object = summary(small({"--time", "0.1"}));
   std::vector<std::string> keys;
   for (const auto& [key, value] : object.items()) keys.push_back(key);
   EXPECT_EQ(keys, (std::vector<std::string>{"device", "solver", "precision", "substeps", "time_s", "wall_s",
@@ -71,7 +71,7 @@ TEST(Simulate, TheStateIsAtTheTimeAskedFor) {
 }
 
 TEST(Simulate, SubstepsFrameAndPrecisionReachTheSolver) {
-  const Json object =
+  const OrderedJson object =
       summary(small({"--time", "0.1", "--substeps", "41", "--frame", "0.02", "--precision", "f64"}));
   EXPECT_EQ(object["substeps"].get<int>(), 41);
   EXPECT_EQ(object["precision"], "f64");
