@@ -52,6 +52,15 @@ double hanging_low_m(const Model& model, double start_low_m) {
   return held_all_around ? start_low_m - std::max(width, height) / 6.0 : low;
 }
 
+/// A free cloth that falls upright folds over where it lands: about a third of its height to either side, and
+/// a seventh of its width beyond its edges.
+void include_landing(Bounds& bounds, const Model& model) {
+  const glm::dvec3& center = model.scene.cloth.center_m;
+  const glm::dvec3 reach{0.65 * model.grid.width_m(), 0.0, 0.35 * model.grid.height_m()};
+  const glm::dvec3 middle{center.x, bounds.low.y, center.z};
+  include(bounds, middle - reach, middle + reach);
+}
+
 }  // namespace
 
 double Bounds::radius_m() const { return 0.5 * glm::distance(low, high); }
@@ -89,9 +98,10 @@ Bounds scene_bounds(const Model& model) {
   const double size = std::max(model.grid.width_m(), model.grid.height_m());
   if (!scene.pins.empty())
     bounds.low.y = hanging_low_m(model, bounds.low.y);
-  else if (scene.floor && scene.gravity)
+  else if (scene.floor && scene.gravity) {
     bounds.low.y = std::min(bounds.low.y, scene.floor->height_m);
-  else if (scene.gravity)
+    if (scene.cloth.orientation == Orientation::vertical) include_landing(bounds, model);
+  } else if (scene.gravity)
     bounds.low.y -= 0.5 * size;
   for (const SphereSection& sphere : scene.spheres)
     for (const double time_s : {0.0, 1.0}) {

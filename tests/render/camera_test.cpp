@@ -9,6 +9,8 @@
 
 #include "render/sheet.h"
 #include "scene/reader.h"
+#include "sim/simulation.h"
+#include "solvers/solver.h"
 
 namespace weft::test {
 namespace {
@@ -62,6 +64,25 @@ TEST(Camera, DefaultViewHoldsEverySceneWithoutWaste) {
       EXPECT_LE(reach, 1.0) << info.name << " leaves the picture";
       EXPECT_GE(reach, 0.85) << info.name << " is needlessly far away";
     }
+}
+
+TEST(Camera, DefaultViewHoldsTheClothWhereverItGoes) {
+  constexpr double kAspect = 16.0 / 9.0;
+  for (const AssetInfo& info : list_scenes()) {
+    const Model model = build_model(load_scene(info.file).scene);
+    const Camera camera = default_camera(model, kAspect);
+    const auto simulation = make_cpu_simulation(model, find_solver(model.scene.solver.name), "f32");
+    for (int frame = 1; frame <= 60; ++frame) {
+      simulation->advance(model.scene.solver.frame_s, simulation->plan().substeps);
+      if (frame % 15 != 0) continue;
+      double reach = 0.0;
+      for (const glm::dvec3& p : simulation->read().position) {
+        const glm::dvec3 place = ndc(camera, kAspect, p);
+        reach = std::max({reach, std::abs(place.x), std::abs(place.y)});
+      }
+      EXPECT_LE(reach, 1.0) << info.name << " leaves the picture after " << frame << " frames";
+    }
+  }
 }
 
 TEST(Camera, BoundsKnowWhereAClothWillHang) {
