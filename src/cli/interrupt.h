@@ -3,7 +3,8 @@
 
 namespace weft::cli {
 
-/// Takes SIGINT and SIGTERM. Until `stop_between_frames`, either ends the program at once with exit code 130.
+/// Takes SIGINT, SIGTERM and SIGHUP (but under nohup). Until `stop_between_frames`, each ends the program at
+/// once with exit code 130.
 void catch_interrupts();
 
 /// From now on the first signal only sets the flag that `interrupted` reads: the command has files to tidy.

@@ -78,13 +78,13 @@ Result weft(const Arguments& arguments, const Environment& changes) {
   return finish(spawn(arguments, changes, streams), streams);
 }
 
-Result weft_interrupted(const Arguments& arguments, const std::function<bool()>& ready) {
+Result weft_interrupted(const Arguments& arguments, const std::function<bool()>& ready, int signal) {
   const Scratch streams;
   const pid_t child = spawn(arguments, {}, streams);
   const auto deadline = std::chrono::steady_clock::now() + 20s;
   while (!ready() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(5ms);
   std::this_thread::sleep_for(100ms);
-  kill(child, SIGINT);
+  kill(child, signal);
   return finish(child, streams);
 }
 

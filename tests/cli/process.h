@@ -1,6 +1,7 @@
 // Runs the built program as a process, as a person would: arguments in, exit code, stdout and stderr out.
 #pragma once
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -21,8 +22,9 @@ using Environment = std::map<std::string, std::string>;
 /// Runs `weft ARGUMENTS` with `changes` on top of this process's environment, for at most two minutes.
 Result weft(const Arguments& arguments, const Environment& changes = {});
 
-/// Starts `weft ARGUMENTS`, waits until `ready` says so (at most 20 s), sends SIGINT, and waits for the end.
-Result weft_interrupted(const Arguments& arguments, const std::function<bool()>& ready);
+/// Starts `weft ARGUMENTS`, waits until `ready` says so (at most 20 s), sends `signal`, and waits for the
+/// end.
+Result weft_interrupted(const Arguments& arguments, const std::function<bool()>& ready, int signal = SIGINT);
 
 /// An empty folder that is removed with the object.
 class Scratch {

@@ -176,6 +176,24 @@ TEST(Simulate, AnInterruptedRunLeavesNoFile) {
   }
 }
 
+TEST(Simulate, AClosedTerminalIsAnInterruption) {
+  const Scratch scratch;
+  const auto began = std::chrono::steady_clock::now();
+  const auto ready = [&] {
+    return std::chrono::steady_clock::now() - began > std::chrono::milliseconds(400);
+  };
+  const Result result =
+      weft_interrupted(small({"--time", "100000", "--out", scratch.path("state.csv")}), ready, SIGHUP);
+  EXPECT_CODE(result, 130);
+  EXPECT_EQ(scratch.file_count(), 0u);
+}
+
+TEST(Simulate, DivergenceAtAutomaticSubstepsNamesAnotherCure) {
+  const Result result = weft(small({"--solver", "euler", "--time", "5"}));
+  EXPECT_CODE(result, 4);
+  EXPECT_SAYS(result.err, "another solver");
+}
+
 TEST(Simulate, DivergenceIsExitFourWithFrameAndParticle) {
   const Scratch scratch;
   const Result result = weft(small({"--substeps", "1", "--set", "material.membrane=1e6", "--time", "5",
