@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <sstream>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/table.h"
 #include "cli/text.h"
 #include "core/text.h"
 #include "scene/reader.h"
@@ -124,7 +126,9 @@ Exit run(int count, char** words) {
     app.parse(arguments);
   } catch (const CLI::ParseError& refusal) {
     if (refusal.get_exit_code() == 0) {  // --help, --version
-      app.exit(refusal, std::cout, std::cerr);
+      std::ostringstream text;
+      app.exit(refusal, text, std::cerr);
+      print_result(text.str());
       return Exit::ok;
     }
     throw error(Exit::usage, "{} (see `weft --help`)", refusal.what());

@@ -79,7 +79,14 @@ class Film {
 std::unique_ptr<gpu::Device> drawing_device(const Options& o) {
   Options drawing = o;
   drawing.device.clear();
-  return open_device(drawing);
+  try {
+    return open_device(drawing);
+  } catch (const Error& failure) {
+    if (failure.code() != Exit::no_device) throw;
+    throw Error(Exit::no_device,
+                "render: --device cpu computes, but pictures are drawn by a Vulkan device and there is none "
+                "that can be used; install a driver (Debian: mesa-vulkan-drivers), or use weft simulate");
+  }
 }
 
 Outcome film_scene(const Options& o, const Machine& machine, OffscreenRenderer& renderer, double run_s,

@@ -106,12 +106,15 @@ void require_finite(const Model& model, const State& state, std::uint64_t frame,
   if (all_finite(state, &particle)) return;
   const std::string since =
       looked + 1 < frame ? fmt::format("between frames {} and {}; ", looked + 1, frame) : std::string();
+  const bool automatic = model.scene.solver.substeps == 0;
   throw error(
       Exit::diverged,
       "{}: the simulation diverged: {}after frame {} (t = {:.6g} s) particle {} (i = {}, j = {}) is not "
-      "finite; use more substeps (--substeps auto follows the stability limit)",
+      "finite; {}",
       model.scene.source, since, frame, state.time_s, particle, particle % model.grid.nx,
-      particle / model.grid.nx);
+      particle / model.grid.nx,
+      automatic ? "use more substeps than the automatic ones, or another solver (weft solvers)"
+                : "use more substeps (--substeps auto follows the stability limit)");
 }
 
 void note(const Options& o, const std::string& text) {

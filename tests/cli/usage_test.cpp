@@ -2,6 +2,8 @@
 // the user's is exit 2 with nothing on stdout and one message on stderr.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "cli/process.h"
 
 namespace weft::test {
@@ -25,6 +27,14 @@ TEST(Usage, HelpListsEveryCommandAndTheExitCodes) {
   EXPECT_EQ(result.err, "");
   for (const std::string& command : kCommands) EXPECT_SAYS(result.out, command);
   EXPECT_SAYS(result.out, "Exit codes");
+}
+
+TEST(Usage, HelpThatCannotBeWrittenIsInputOutput) {
+  for (const char* option : {"--help", "--version"}) {
+    const int status =
+        std::system((WEFT_PROGRAM " " + std::string(option) + " > /dev/full 2> /dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 6) << option;
+  }
 }
 
 TEST(Usage, EveryCommandHelpsWithExamplesAndSharedOptions) {
