@@ -67,7 +67,7 @@ std::vector<std::string> arguments(const std::filesystem::path& output, std::uin
           "-c:v",
           "libx264",
           "-preset",
-          "medium",
+          "veryfast",
           "-crf",
           "17",
           "-colorspace",
