@@ -4,13 +4,26 @@ file(GLOB shader_sources CONFIGURE_DEPENDS
 set(spirv_dir ${CMAKE_BINARY_DIR}/spirv)
 set(spirv_files "")
 set(spirv_names "")
-foreach(source ${shader_sources})
-  file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/shaders ${source})
+
+# In double: every pass except the kernels that read texels, the compensated forms of float, and bench's copy.
+set(double_sources ${shader_sources})
+list(FILTER double_sources INCLUDE REGEX "/passes/")
+list(FILTER double_sources EXCLUDE REGEX "(_bands|_strip|_texel|_compensated|/copy)\\.comp$")
+list(TRANSFORM double_sources APPEND "+WEFT_F64")
+list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
+
+foreach(variant ${shader_sources} ${double_sources})
+  string(REGEX REPLACE "\\+.*" "" source ${variant})
+  set(define "")
+  if(variant MATCHES "\\+(.*)$")
+    set(define -D${CMAKE_MATCH_1})
+  endif()
+  file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/shaders ${variant})
   set(output ${spirv_dir}/${name}.spv)
   get_filename_component(folder ${output} DIRECTORY)
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(OUTPUT ${output}
-    COMMAND ${GLSLC} --target-env=vulkan1.3 -O -Werror -MD -MF ${output}.d -o ${output} ${source}
+    COMMAND ${GLSLC} ${define} --target-env=vulkan1.3 -O -Werror -MD -MF ${output}.d -o ${output} ${source}
     COMMAND $<IF:$<BOOL:${SPIRV_VAL}>,${SPIRV_VAL},true> $<$<BOOL:${SPIRV_VAL}>:--scalar-block-layout>
       $<$<BOOL:${SPIRV_VAL}>:--target-env> $<$<BOOL:${SPIRV_VAL}>:vulkan1.3> ${output}
     DEPENDS ${source} DEPFILE ${output}.d COMMENT "glslc ${name}" VERBATIM COMMAND_EXPAND_LISTS)

@@ -7,9 +7,9 @@
 // Source: Green 2008, Particle simulation using CUDA, "Building the grid using atomic operations".
 
 #include "../shared/cells.glsl"
-READS  (vec4, position)
+READS  (real4, position)
 READS  (uint, collision_state)
-WRITES (vec4, built_position)
+WRITES (real4, built_position)
 UPDATES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
@@ -19,7 +19,7 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  vec4 x = position[own.particle];
+  real4 x = position[own.particle];
   built_position[own.particle] = x;
   atomicAdd(cells[bucket_of(c, cell_of(c, x.xyz, own.particle))], 1u);
 }

@@ -6,7 +6,7 @@
 // Each invocation counts the smaller places of its own bucket and writes one slot, its own: no races.
 
 #include "../shared/cells.glsl"
-READS (vec4, position)
+READS (real4, position)
 READS (uint, collision_state)
 READS (uint, cells)
 READS (uint, cell_arrivals)

@@ -9,8 +9,8 @@
 // Source: Verlet 1967 (lists with a margin); docs/effects.md "Self-collision".
 
 #include "../shared/cells.glsl"
-READS  (vec4, position)
-READS  (vec4, built_position)
+READS  (real4, position)
+READS  (real4, built_position)
 UPDATES(uint, collision_state)
 WRITES (uint, cells)
 
@@ -23,9 +23,9 @@ void main() {
   uint count = c.count, centre = collision[0].centre;
   cells[own.particle] = 0u;
   if (own.particle + count <= collision[0].bucket_mask + 1u) cells[own.particle + count] = 0u;
-  precise vec3 moved = position[own.particle].xyz - built_position[own.particle].xyz;
-  precise vec3 drifted = position[centre].xyz - built_position[centre].xyz;
-  precise vec3 relative = moved - drifted;
+  precise real3 moved = position[own.particle].xyz - built_position[own.particle].xyz;
+  precise real3 drifted = position[centre].xyz - built_position[centre].xyz;
+  precise real3 relative = moved - drifted;
   bool holds = squared_length(relative) <= collision[0].moved_squared_max_m2;
   if (holds) return;
   atomicOr(collision_state[kListGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);

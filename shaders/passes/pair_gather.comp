@@ -10,7 +10,7 @@
 // Source: Green 2008, Particle simulation using CUDA; Verlet 1967.
 
 #include "../shared/cells.glsl"
-READS  (vec4, position)
+READS  (real4, position)
 READS  (uint, cells)
 READS  (uint, cell_members)
 UPDATES(uint, collision_state)
@@ -20,13 +20,13 @@ WRITES (uint, pair_places)
 layout(local_size_x = kCollisionGroup) in;
 
 // How many entries the particle's list has found so far; those beyond the room are counted only.
-uint gather_from(Cells c, ivec3 cell, Own own, vec3 x, float reach_max, uint found) {
+uint gather_from(Cells c, ivec3 cell, Own own, real3 x, real reach_max, uint found) {
   uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
   for (uint slot = cells[bucket]; slot < end; ++slot) {
     uint place = cell_members[slot], other = particle_at(c, place);
-    vec3 there = position[other].xyz;
-    precise vec3 d = there - x;
-    float q = squared_length(d);
+    real3 there = position[other].xyz;
+    precise real3 d = there - x;
+    real q = squared_length(d);
     if (!(q < reach_max) || place == own.place || cell_of(c, there, other) != cell) continue;
     if (!(q < collision[0].limits[limit_row(c, own, place)].z)) continue;
     if (found < collision[0].capacity) pair_places[found * c.count + own.particle] = place;
@@ -40,8 +40,8 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  vec3 x = position[own.particle].xyz;
-  float reach_max = collision[0].limits[c.limit_last].z;
+  real3 x = position[own.particle].xyz;
+  real reach_max = collision[0].limits[c.limit_last].z;
   uint found = 0u;
   if (covered(c, x)) {
     ivec3 corner = corner_cell(c, x);

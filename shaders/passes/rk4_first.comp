@@ -6,15 +6,15 @@
 // Each invocation writes its own particles of buffers that nobody reads: no races.
 // Source: docs/solvers.md "Runge-Kutta stages".
 
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
-WRITES(vec4, base_position)
-WRITES(vec4, base_velocity)
-WRITES(vec4, sum_position)
-WRITES(vec4, sum_velocity)
+READS (real4, substeps)
+READS (real4, position)
+READS (real4, velocity)
+WRITES(real4, position_next)
+WRITES(real4, velocity_next)
+WRITES(real4, base_position)
+WRITES(real4, base_velocity)
+WRITES(real4, sum_position)
+WRITES(real4, sum_velocity)
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
@@ -28,18 +28,18 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #include "../shared/stage.glsl"
 
 void move(Step s, Column c, inout March m) {
-  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
+  real3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
   Slope k = slope_at(s, c, m);
-  precise vec3 sum_x = s.gain * k.x;
-  precise vec3 sum_v = s.gain * k.v;
-  precise vec3 x1 = x0 + s.drift * k.x;
-  precise vec3 v1 = v0 + s.drift * k.v;
-  base_position[m.p] = vec4(x0, 0.0);
-  base_velocity[m.p] = vec4(v0, 0.0);
-  sum_position[m.p] = vec4(sum_x, 0.0);
-  sum_velocity[m.p] = vec4(sum_v, 0.0);
-  position_next[m.p] = vec4(x1, position[m.p].w);
-  velocity_next[m.p] = vec4(v1, 0.0);
+  precise real3 sum_x = s.gain * k.x;
+  precise real3 sum_v = s.gain * k.v;
+  precise real3 x1 = x0 + s.drift * k.x;
+  precise real3 v1 = v0 + s.drift * k.v;
+  base_position[m.p] = real4(x0, 0.0);
+  base_velocity[m.p] = real4(v0, 0.0);
+  sum_position[m.p] = real4(sum_x, 0.0);
+  sum_velocity[m.p] = real4(sum_v, 0.0);
+  position_next[m.p] = real4(x1, position[m.p].w);
+  velocity_next[m.p] = real4(v1, 0.0);
 }
 
 #include "../shared/march.glsl"

@@ -6,15 +6,15 @@
 // Each invocation writes its own particles and reads of the others only what nobody writes: no races.
 // Source: docs/solvers.md "Runge-Kutta stages".
 
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
-READS (vec4, base_position)
-READS (vec4, base_velocity)
-UPDATES(vec4, sum_position)
-UPDATES(vec4, sum_velocity)
+READS (real4, substeps)
+READS (real4, position)
+READS (real4, velocity)
+WRITES(real4, position_next)
+WRITES(real4, velocity_next)
+READS (real4, base_position)
+READS (real4, base_velocity)
+UPDATES(real4, sum_position)
+UPDATES(real4, sum_velocity)
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
@@ -29,14 +29,14 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 
 void move(Step s, Column c, inout March m) {
   Slope k = slope_at(s, c, m);
-  precise vec3 sum_x = sum_position[m.p].xyz + s.gain * k.x;
-  precise vec3 sum_v = sum_velocity[m.p].xyz + s.gain * k.v;
-  precise vec3 x1 = base_position[m.p].xyz + s.drift * k.x;
-  precise vec3 v1 = base_velocity[m.p].xyz + s.drift * k.v;
-  sum_position[m.p] = vec4(sum_x, 0.0);
-  sum_velocity[m.p] = vec4(sum_v, 0.0);
-  position_next[m.p] = vec4(x1, position[m.p].w);
-  velocity_next[m.p] = vec4(v1, 0.0);
+  precise real3 sum_x = sum_position[m.p].xyz + s.gain * k.x;
+  precise real3 sum_v = sum_velocity[m.p].xyz + s.gain * k.v;
+  precise real3 x1 = base_position[m.p].xyz + s.drift * k.x;
+  precise real3 v1 = base_velocity[m.p].xyz + s.drift * k.v;
+  sum_position[m.p] = real4(sum_x, 0.0);
+  sum_velocity[m.p] = real4(sum_v, 0.0);
+  position_next[m.p] = real4(x1, position[m.p].w);
+  velocity_next[m.p] = real4(v1, 0.0);
 }
 
 #include "../shared/march.glsl"

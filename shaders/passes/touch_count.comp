@@ -6,7 +6,7 @@
 // From here on the lists are fresh.
 
 #include "../shared/cells.glsl"
-READS  (vec4, position)
+READS  (real4, position)
 READS  (uint, pair_count)
 READS  (uint, pair_places)
 UPDATES(uint, collision_state)
@@ -19,13 +19,13 @@ void main() {
   Own own;
   if (!own_particle(c, own)) return;
   if (own.particle == 0u) collision_state[kListGroups] = collision_state[kScanGroups] = 0u;
-  vec3 x = position[own.particle].xyz;
+  real3 x = position[own.particle].xyz;
   uint entries = pair_count[own.particle], touching = 0u;
-  float limit_max = collision[0].limits[c.limit_last].y;
+  real limit_max = collision[0].limits[c.limit_last].y;
   for (uint k = 0u; k < entries; ++k) {
     uint place = pair_places[k * c.count + own.particle];
-    precise vec3 d = position[particle_at(c, place)].xyz - x;
-    float q = squared_length(d);
+    precise real3 d = position[particle_at(c, place)].xyz - x;
+    real q = squared_length(d);
     if (q < limit_max && q < collision[0].limits[limit_row(c, own, place)].y) ++touching;
   }
   touch_count[own.particle] = touching;

@@ -6,12 +6,12 @@
 // Each invocation writes its own particles and reads of the others only what nobody writes: no races.
 // Source: docs/solvers.md "verlet".
 
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
-UPDATES(vec4, position_previous)
+READS (real4, substeps)
+READS (real4, position)
+READS (real4, velocity)
+WRITES(real4, position_next)
+WRITES(real4, velocity_next)
+UPDATES(real4, position_previous)
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
@@ -24,38 +24,38 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #include "../shared/kick.glsl"
 
 void move(Step s, Column c, inout March m) {
-  float relative = position[m.p].w;
-  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
-  precise vec3 F = spring_force(c, m);
-  precise float w = relative * s.inverse_mass;
-  precise vec3 x1 = x0;
-  precise vec3 v = v0;
-  precise vec3 behind = x0;
+  real relative = position[m.p].w;
+  real3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
+  precise real3 F = spring_force(c, m);
+  precise real w = relative * s.inverse_mass;
+  precise real3 x1 = x0;
+  precise real3 v = v0;
+  precise real3 behind = x0;
   if (!pins || w != 0.0) {
-    precise vec3 travelled = s.drift * v0;
+    precise real3 travelled = s.drift * v0;
     if (row_index != 0u) travelled = x0 - position_previous[m.p].xyz;
     if (air) {
-      precise vec3 lost = s.loss * travelled;
+      precise real3 lost = s.loss * travelled;
       travelled = travelled - lost;
     }
-    precise float gain = s.gain * s.drift;
-    precise vec3 pushed = gain * acceleration(s, F, w);
+    precise real gain = s.gain * s.drift;
+    precise real3 pushed = gain * acceleration(s, F, w);
     x1 = x0 + travelled;
     x1 = x1 + pushed;
     v = x1 - x0;
     v = v / s.drift;
     if (spheres || floor_contact) {
-      vec3 free_x = x1, free_v = v;
+      real3 free_x = x1, free_v = v;
       contact(s.row, x0, x1, v);
       if (x1 != free_x || v != free_v) {  // as if it had always moved so
-        precise vec3 back = s.drift * v;
+        precise real3 back = s.drift * v;
         behind = x1 - back;
       }
     }
   }
-  position_next[m.p] = vec4(x1, relative);
-  velocity_next[m.p] = vec4(v, 0.0);
-  position_previous[m.p] = vec4(behind, 0.0);
+  position_next[m.p] = real4(x1, relative);
+  velocity_next[m.p] = real4(v, 0.0);
+  position_previous[m.p] = real4(behind, 0.0);
 }
 
 #include "../shared/march.glsl"

@@ -6,10 +6,10 @@
 // Triples of a colour share no particle, so plain writes neither race nor depend on order.
 // Source: Macklin et al. 2016, XPBD, eq. 18, lambda starting at zero; docs/solvers.md "xpbd".
 
-READS (vec4, substeps)
-READS (vec4, constraints)
-READS (vec4, position)         // where the substep began
-UPDATES(vec4, position_next)  // how far each has moved since
+READS (real4, substeps)
+READS (real4, constraints)
+READS (real4, position)         // where the substep began
+UPDATES(real4, position_next)  // how far each has moved since
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
@@ -25,26 +25,26 @@ void main() {
   uint next = along_i ? 1u : nx;
   if (i >= nx || j >= ny || (along_i ? i + 2u >= nx : j + 2u >= ny)) return;
   bool boundary = along_i ? (j == 0u || j + 1u == ny) : (i == 0u || i + 1u == nx);
-  float compliance = constraints[kConstraintBend + (boundary ? 1u : 0u)].y;
+  real compliance = constraints[kConstraintBend + (boundary ? 1u : 0u)].y;
 
   uint pa = j * nx + i, pb = pa + next, pc = pb + next;
-  vec4 a = position_next[pa], b = position_next[pb], c = position_next[pc];
-  precise float wa = a.w * params.inverse_mass_1_kg;
-  precise float wb = b.w * params.inverse_mass_1_kg;
-  precise float wc = c.w * params.inverse_mass_1_kg;
-  precise float w = (wa + 4.0 * wb) + wc;
+  real4 a = position_next[pa], b = position_next[pb], c = position_next[pc];
+  precise real wa = a.w * params.inverse_mass_1_kg;
+  precise real wb = b.w * params.inverse_mass_1_kg;
+  precise real wc = c.w * params.inverse_mass_1_kg;
+  precise real w = (wa + 4.0 * wb) + wc;
   if (w == 0.0) return;
-  precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
-  precise float stiff = compliance * (rate * rate);
-  precise vec3 start = (position[pa].xyz - 2.0 * position[pb].xyz) + position[pc].xyz;
-  precise vec3 moved = (a.xyz - 2.0 * b.xyz) + c.xyz;
-  precise vec3 push = start + moved;
+  precise real rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
+  precise real stiff = compliance * (rate * rate);
+  precise real3 start = (position[pa].xyz - 2.0 * position[pb].xyz) + position[pc].xyz;
+  precise real3 moved = (a.xyz - 2.0 * b.xyz) + c.xyz;
+  precise real3 push = start + moved;
   push = push / (w + stiff);
-  precise float wb2 = 2.0 * wb;
-  precise vec3 xa = a.xyz - wa * push;
-  precise vec3 xb = b.xyz + wb2 * push;
-  precise vec3 xc = c.xyz - wc * push;
-  position_next[pa] = vec4(xa, a.w);
-  position_next[pb] = vec4(xb, b.w);
-  position_next[pc] = vec4(xc, c.w);
+  precise real wb2 = 2.0 * wb;
+  precise real3 xa = a.xyz - wa * push;
+  precise real3 xb = b.xyz + wb2 * push;
+  precise real3 xc = c.xyz - wc * push;
+  position_next[pa] = real4(xa, a.w);
+  position_next[pb] = real4(xb, b.w);
+  position_next[pc] = real4(xc, c.w);
 }

@@ -7,11 +7,11 @@
 // Each invocation reads and writes its own particle only: no races.
 // Source: Macklin et al. 2019, Small Steps in Physics Simulation, algorithm 1; docs/solvers.md "xpbd".
 
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-UPDATES(vec4, position_next)
-WRITES(vec4, velocity_next)
+READS (real4, substeps)
+READS (real4, position)
+READS (real4, velocity)
+UPDATES(real4, position_next)
+WRITES(real4, velocity_next)
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };
@@ -25,16 +25,16 @@ void main() {
   uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
   if (i >= params.nx || j >= params.ny) return;
   uint p = j * params.nx + i, row = row_index * params.row_stride;
-  vec4 own = position[p];
-  vec3 x0 = own.xyz;
-  precise vec3 x1 = x0;
-  precise vec3 v = velocity[p].xyz;
+  real4 own = position[p];
+  real3 x0 = own.xyz;
+  precise real3 x1 = x0;
+  precise real3 v = velocity[p].xyz;
   if (own.w != 0.0) {
-    precise vec3 moved = position_next[p].xyz;
+    precise real3 moved = position_next[p].xyz;
     x1 = x0 + moved;
     v = moved / substeps[row + 1u].y;
     if (spheres || floor_contact) contact(row, x0, x1, v);
   }
-  position_next[p] = vec4(x1, own.w);
-  velocity_next[p] = vec4(v, 0.0);
+  position_next[p] = real4(x1, own.w);
+  velocity_next[p] = real4(v, 0.0);
 }

@@ -6,10 +6,10 @@
 // Springs of a colour share no particle, so plain writes neither race nor depend on order.
 // Source: Macklin et al. 2016, XPBD, eq. 18 and 26, lambda starting at zero; docs/solvers.md "xpbd".
 
-READS (vec4, substeps)
-READS (vec4, constraints)
-READS (vec4, position)         // where the substep began
-UPDATES(vec4, position_next)  // how far each has moved since
+READS (real4, substeps)
+READS (real4, constraints)
+READS (real4, position)         // where the substep began
+UPDATES(real4, position_next)  // how far each has moved since
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
@@ -22,34 +22,34 @@ const uint kStructuralI = 0u, kStructuralJ = 1u, kShearUp = 3u, kFlexI = 4u, kFl
 // The n-th place of a colour where two of every four belong to it: 0 1 4 5 ..., 2 3 6 7 ...
 uint pair_of_two(uint n, uint colour) { return (n / 2u) * 4u + colour * 2u + n % 2u; }
 
-void pull(uint pa, uint pb, vec3 k) {
-  vec4 a = position_next[pa], b = position_next[pb];
-  precise float wa = a.w * params.inverse_mass_1_kg;
-  precise float wb = b.w * params.inverse_mass_1_kg;
-  precise float w = wa + wb;
+void pull(uint pa, uint pb, real3 k) {
+  real4 a = position_next[pa], b = position_next[pb];
+  precise real wa = a.w * params.inverse_mass_1_kg;
+  precise real wb = b.w * params.inverse_mass_1_kg;
+  precise real w = wa + wb;
   if (w == 0.0) return;
-  precise float rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
-  precise float stiff = k.y * (rate * rate);
-  precise vec3 moved = b.xyz - a.xyz;
-  precise vec3 start = position[pb].xyz - position[pa].xyz;
-  precise vec3 d = start + moved;
-  precise float l = sqrt(max(dot3(d, d), kTinyLengthSquared));
-  precise float inverse = 1.0 / l;
-  precise vec3 n = d * inverse;
-  precise float error = l - k.x;
-  precise float weight = w;
+  precise real rate = 1.0 / substeps[row_index * params.row_stride + 1u].y;
+  precise real stiff = k.y * (rate * rate);
+  precise real3 moved = b.xyz - a.xyz;
+  precise real3 start = position[pb].xyz - position[pa].xyz;
+  precise real3 d = start + moved;
+  precise real l = sqrt(max(dot3(d, d), kTinyLengthSquared));
+  precise real inverse = 1.0 / l;
+  precise real3 n = d * inverse;
+  precise real error = l - k.x;
+  precise real weight = w;
   if (damping) {
-    precise float gamma = k.z * rate;
-    precise float along = gamma * dot3(n, moved);
+    precise real gamma = k.z * rate;
+    precise real along = gamma * dot3(n, moved);
     error = error + along;
     weight = (1.0 + gamma) * w;
   }
-  precise float size = error / (weight + stiff);
-  precise vec3 push = size * n;
-  precise vec3 next_a = a.xyz + wa * push;
-  precise vec3 next_b = b.xyz - wb * push;
-  position_next[pa] = vec4(next_a, a.w);
-  position_next[pb] = vec4(next_b, b.w);
+  precise real size = error / (weight + stiff);
+  precise real3 push = size * n;
+  precise real3 next_a = a.xyz + wa * push;
+  precise real3 next_b = b.xyz - wb * push;
+  position_next[pa] = real4(next_a, a.w);
+  position_next[pb] = real4(next_b, b.w);
 }
 
 void main() {

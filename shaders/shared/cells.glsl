@@ -7,7 +7,7 @@ READS(Collision, collision)
 // What is the same for all invocations, read once: a software device pays for every load.
 struct Cells {
   uint nx, ny, count, column_bits, bucket_mask, limit_last;
-  float inverse_cell_1_m;
+  real inverse_cell_1_m;
 };
 
 Cells cells_of_cloth() {
@@ -45,21 +45,21 @@ uint particle_at(Cells c, uint place) {
 }
 
 // Whether the grid covers the place: not when it is too far away, or no number.
-bool covered(Cells c, vec3 x) {
-  precise vec3 scaled = x * c.inverse_cell_1_m;
+bool covered(Cells c, real3 x) {
+  precise real3 scaled = x * c.inverse_cell_1_m;
   return abs(scaled.x) < kCellsFromOriginMax && abs(scaled.y) < kCellsFromOriginMax &&
          abs(scaled.z) < kCellsFromOriginMax;
 }
 
 // A particle that the grid does not cover is alone in a cell of its own.
-ivec3 cell_of(Cells c, vec3 x, uint particle) {
-  precise vec3 scaled = floor(x * c.inverse_cell_1_m);
+ivec3 cell_of(Cells c, real3 x, uint particle) {
+  precise real3 scaled = floor(x * c.inverse_cell_1_m);
   return covered(c, x) ? ivec3(scaled) : ivec3(int(particle), 0x40000000, 0x40000000);
 }
 
 // The lowest of the eight cells that hold everything within half a cell's edge.
-ivec3 corner_cell(Cells c, vec3 x) {
-  precise vec3 scaled = x * c.inverse_cell_1_m;
+ivec3 corner_cell(Cells c, real3 x) {
+  precise real3 scaled = x * c.inverse_cell_1_m;
   scaled = floor(scaled - 0.5);
   return ivec3(scaled);
 }
@@ -78,7 +78,7 @@ uint limit_row(Cells c, Own own, uint place) {
   return min(uint(di * di + dj * dj), c.limit_last);
 }
 
-float squared_length(vec3 d) {
-  precise float q = (d.x * d.x + d.y * d.y) + d.z * d.z;
+real squared_length(real3 d) {
+  precise real q = (d.x * d.x + d.y * d.y) + d.z * d.z;
   return q;
 }

@@ -1,54 +1,54 @@
 // Contact of one particle with the spheres and the floor, swept, with Coulomb friction: docs/float-form.md,
-// "Contact". The including pass declares READS(vec4, substeps) and includes dot.glsl (dot3) first.
+// "Contact". The including pass declares READS(real4, substeps) and includes dot.glsl (dot3) first.
 
 // Takes away the inward normal velocity relative to the collider, and friction from the rest.
-vec3 respond(vec3 v, vec3 collider_velocity, vec3 n, float friction) {
-  precise vec3 u = v - collider_velocity;
-  precise float un = dot3(u, n);
+real3 respond(real3 v, real3 collider_velocity, real3 n, real friction) {
+  precise real3 u = v - collider_velocity;
+  precise real un = dot3(u, n);
   if (un >= 0.0) return v;
-  precise vec3 along = un * n;
-  precise vec3 t = u - along;
-  precise float lt = sqrt(dot3(t, t));
-  precise float cut = friction * (-un);
-  precise float keep = 0.0;
+  precise real3 along = un * n;
+  precise real3 t = u - along;
+  precise real lt = sqrt(dot3(t, t));
+  precise real cut = friction * (-un);
+  precise real keep = 0.0;
   if (lt > cut) {
-    precise float share = cut / lt;
+    precise real share = cut / lt;
     keep = 1.0 - share;
   }
-  precise vec3 kept = keep * t;
-  precise vec3 answer = collider_velocity + kept;
+  precise real3 kept = keep * t;
+  precise real3 answer = collider_velocity + kept;
   return answer;
 }
 
 // Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of the
 // reach; else p1. Shallower chords are particles sliding round the sphere.
-vec3 sphere_stop(vec3 p0, vec3 p1, float reach, out bool hit) {
-  precise vec3 D = p1 - p0;
-  precise float m = 0.99 * reach;
-  precise float m2 = m * m;
-  precise float a = dot3(D, D);
-  precise float b = dot3(p0, D);
-  precise float c0 = dot3(p0, p0);
-  precise float c1 = dot3(p1, p1);
-  precise float r2 = reach * reach;
+real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit) {
+  precise real3 D = p1 - p0;
+  precise real m = real(99.0) / real(100.0) * reach;
+  precise real m2 = m * m;
+  precise real a = dot3(D, D);
+  precise real b = dot3(p0, D);
+  precise real c0 = dot3(p0, p0);
+  precise real c1 = dot3(p1, p1);
+  precise real r2 = reach * reach;
   hit = c1 < r2;
   if (b < 0.0 && c0 >= m2) {
-    precise float b2 = b * b;
-    precise float nearest = c1;  // squared distance of the path's nearest point: its end, or where it passed
+    precise real b2 = b * b;
+    precise real nearest = c1;  // squared distance of the path's nearest point: its end, or where it passed
     if (dot3(p1, D) > 0.0) {
-      precise float advance = b2 / a;
+      precise real advance = b2 / a;
       nearest = c0 - advance;
     }
     if (nearest < m2) {
-      precise float beyond = c0 - r2;
+      precise real beyond = c0 - r2;
       beyond = a * beyond;
-      precise float k = b2 - beyond;
-      precise float root = sqrt(max(k, 0.0));
-      precise float tau = -b - root;
+      precise real k = b2 - beyond;
+      precise real root = sqrt(max(k, 0.0));
+      precise real tau = -b - root;
       tau = tau / a;
       tau = max(tau, 0.0);
-      precise vec3 travelled = tau * D;
-      precise vec3 e = p0 + travelled;
+      precise real3 travelled = tau * D;
+      precise real3 e = p0 + travelled;
       hit = true;
       return e;
     }
@@ -56,33 +56,33 @@ vec3 sphere_stop(vec3 p0, vec3 p1, float reach, out bool hit) {
   return p1;
 }
 
-void sphere_contact(uint row, vec3 x0, inout vec3 x1, inout vec3 v) {
-  vec4 place = substeps[row];
-  vec4 travel = substeps[row + 1u];
-  precise vec3 p0 = x0 - (place.xyz - travel.xyz);
-  precise vec3 p1 = x1 - place.xyz;
+void sphere_contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
+  real4 place = substeps[row];
+  real4 travel = substeps[row + 1u];
+  precise real3 p0 = x0 - (place.xyz - travel.xyz);
+  precise real3 p1 = x1 - place.xyz;
   bool hit;
-  precise vec3 e = sphere_stop(p0, p1, place.w, hit);
+  precise real3 e = sphere_stop(p0, p1, place.w, hit);
   if (!hit) return;
-  precise float l = sqrt(dot3(e, e));
-  precise vec3 n = vec3(0.0, 1.0, 0.0);
-  if (l > 1e-12) {
-    precise float inverse = 1.0 / l;
+  precise real l = sqrt(dot3(e, e));
+  precise real3 n = real3(0.0, 1.0, 0.0);
+  if (l > kNoLength) {
+    precise real inverse = 1.0 / l;
     n = e * inverse;
   }
-  precise vec3 out_to = place.w * n;
-  precise vec3 stopped = place.xyz + out_to;
+  precise real3 out_to = place.w * n;
+  precise real3 stopped = place.xyz + out_to;
   x1 = stopped;
   v = respond(v, substeps[row + 2u].xyz, n, travel.w);
 }
 
 // Spheres in scene order, then the floor, so that the floor always holds. `row` starts the dispatch's row.
-void contact(uint row, vec3 x0, inout vec3 x1, inout vec3 v) {
+void contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
   if (spheres)
     for (uint s = 0u; s < params.sphere_count; ++s)
       sphere_contact(row + kRowHeadVec4s + s * kRowSphereVec4s, x0, x1, v);
   if (floor_contact && x1.y < params.floor_height_m) {
     x1.y = params.floor_height_m;
-    v = respond(v, vec3(0.0), vec3(0.0, 1.0, 0.0), params.floor_friction);
+    v = respond(v, real3(0.0), real3(0.0, 1.0, 0.0), params.floor_friction);
   }
 }

@@ -1,6 +1,6 @@
 // The springs' force on a particle, gathered over its 12 neighbours in the order of docs/float-form.md,
 // marching down a column of particles so that what one row loaded and computed serves the rows below. The
-// including pass declares READS(vec4, position) and READS(vec4, velocity) first, or defines both macros
+// including pass declares READS(real4, position) and READS(real4, velocity) first, or defines both macros
 // below.
 #ifndef SOURCE_POSITION
 #define SOURCE_POSITION(particle) position[particle]
@@ -11,7 +11,7 @@
 
 // One end of a pair.
 struct End {
-  vec3 x, v;
+  real3 x, v;
 };
 
 // A pair that does not exist is asked for at the particle itself: always a valid address, and with
@@ -19,29 +19,29 @@ struct End {
 End end_at(uint particle) {
   End end;
   end.x = SOURCE_POSITION(particle).xyz;
-  end.v = damping ? SOURCE_VELOCITY(particle).xyz : vec3(0.0);
+  end.v = damping ? SOURCE_VELOCITY(particle).xyz : real3(0.0);
   return end;
 }
 
 // Force [N] on a of the pair a, b; k = (K, L, c).
-vec3 pair_force(vec3 k, End a, End b) {
-  precise vec3 d = b.x - a.x;
-  precise float q = max(dot3(d, d), kTinyLengthSquared);
-  precise float root = sqrt(q);
-  precise float r = 1.0 / root;
-  precise float s;
+real3 pair_force(real3 k, End a, End b) {
+  precise real3 d = b.x - a.x;
+  precise real q = max(dot3(d, d), kTinyLengthSquared);
+  precise real root = sqrt(q);
+  precise real r = 1.0 / root;
+  precise real s;
   if (damping) {
-    precise vec3 dv = b.v - a.v;
-    precise float t = k.z * dot3(d, dv);
+    precise real3 dv = b.v - a.v;
+    precise real t = k.z * dot3(d, dv);
     t = t * r;
     t = t - k.y;
     t = t * r;
     s = t + k.x;
   } else {
-    precise float t = k.y * r;
+    precise real t = k.y * r;
     s = k.x - t;
   }
-  precise vec3 f = s * d;
+  precise real3 f = s * d;
   return f;
 }
 
@@ -50,27 +50,27 @@ vec3 pair_force(vec3 k, End a, End b) {
 struct Column {
   uint nx, ny, i;
   bool left, right, left2, right2;      // whether there are neighbours one and two columns away
-  vec3 down_none, down_one, down_two;   // f01 that 0, 1, 2 bending triples lean on
-  vec3 right_inner, right_edge;         // f10(i, j) inside and on the first and last row
-  vec3 left_inner, left_edge;           // f10(i-1, j)
-  vec3 right2_inner, right2_edge;       // f20(i, j)
-  vec3 left2_inner, left2_edge;         // f20(i-2, j)
-  vec3 down2;                           // f02
-  vec3 shear_left, shear_right;
+  real3 down_none, down_one, down_two;   // f01 that 0, 1, 2 bending triples lean on
+  real3 right_inner, right_edge;         // f10(i, j) inside and on the first and last row
+  real3 left_inner, left_edge;           // f10(i-1, j)
+  real3 right2_inner, right2_edge;       // f20(i, j)
+  real3 left2_inner, left2_edge;         // f20(i-2, j)
+  real3 down2;                           // f02
+  real3 shear_left, shear_right;
 };
 
 // Row of params.structural along i for the pair whose first particle is at column `first`.
-vec3 row_along_i(uint first, bool boundary, uint nx) {
-  vec3 none = boundary ? params.structural[3].xyz : params.structural[0].xyz;
+real3 row_along_i(uint first, bool boundary, uint nx) {
+  real3 none = boundary ? params.structural[3].xyz : params.structural[0].xyz;
   if (!bending) return none;
-  vec3 one = boundary ? params.structural[4].xyz : params.structural[1].xyz;
-  vec3 two = boundary ? params.structural[5].xyz : params.structural[2].xyz;
+  real3 one = boundary ? params.structural[4].xyz : params.structural[1].xyz;
+  real3 two = boundary ? params.structural[5].xyz : params.structural[2].xyz;
   bool before = first >= 1u, after = first + 2u < nx;
   return before && after ? two : (before || after ? one : none);
 }
 
 Column column_at(uint i) {
-  const vec3 absent = vec3(0.0);
+  const real3 absent = real3(0.0);
   Column c;
   c.nx = params.nx;
   c.ny = params.ny;
@@ -103,27 +103,27 @@ struct March {
   uint j, p;
   End own, down1, down2;  // (i, j), (i, j+1), (i, j+2)
   End left_up, left, left_down, right_up, right, right_down;
-  vec3 f01_up, f02_up1, f02_up2;  // f01(i, j-1), f02(i, j-1), f02(i, j-2)
+  real3 f01_up, f02_up1, f02_up2;  // f01(i, j-1), f02(i, j-1), f02(i, j-2)
 };
 
 // f01 of the particle at row j, between its end a and the one below.
-vec3 f01_of(Column c, uint j, End a, End b) {
-  vec3 k = c.down_none;
+real3 f01_of(Column c, uint j, End a, End b) {
+  real3 k = c.down_none;
   if (bending) {
     bool before = j >= 1u, after = j + 2u < c.ny;
     k = before && after ? c.down_two : (before || after ? c.down_one : c.down_none);
   }
-  return pair_force(j + 1u < c.ny ? k : vec3(0.0), a, b);
+  return pair_force(j + 1u < c.ny ? k : real3(0.0), a, b);
 }
 
-vec3 f02_of(Column c, uint j, End a, End b) {
-  return pair_force(j + 2u < c.ny ? c.down2 : vec3(0.0), a, b);
+real3 f02_of(Column c, uint j, End a, End b) {
+  return pair_force(j + 2u < c.ny ? c.down2 : real3(0.0), a, b);
 }
 
 // Loads everything that row j needs and that the march does not load row by row.
 March march_from(Column c, uint j) {
   const bool far_pairs = flex || bending;  // (2,0)-type pairs carry flex springs and folded bending
-  const End nothing = End(vec3(0.0), vec3(0.0));
+  const End nothing = End(real3(0.0), real3(0.0));
   March m;
   m.j = j;
   m.p = j * c.nx + c.i;
@@ -136,8 +136,8 @@ March march_from(Column c, uint j) {
   m.left_up = shear ? end_at(up && c.left ? m.p - c.nx - 1u : m.p) : nothing;
   m.right_up = shear ? end_at(up && c.right ? m.p - c.nx + 1u : m.p) : nothing;
   m.down2 = m.left_down = m.right_down = nothing;
-  m.f01_up = up ? f01_of(c, j - 1u, up1, m.own) : vec3(0.0);
-  m.f02_up1 = m.f02_up2 = vec3(0.0);
+  m.f01_up = up ? f01_of(c, j - 1u, up1, m.own) : real3(0.0);
+  m.f02_up1 = m.f02_up2 = real3(0.0);
   if (far_pairs) {
     if (up2) m.f02_up2 = f02_of(c, j - 2u, end_at(m.p - 2u * c.nx), m.own);
     if (up) m.f02_up1 = f02_of(c, j - 1u, up1, m.down1);
@@ -146,13 +146,13 @@ March march_from(Column c, uint j) {
 }
 
 // The sum of all pairs' forces [N] at the march's particle.
-vec3 spring_force(Column c, inout March m) {
+real3 spring_force(Column c, inout March m) {
   const bool far_pairs = flex || bending;
-  const vec3 absent = vec3(0.0);
+  const real3 absent = real3(0.0);
   uint p = m.p;
   bool up = m.j >= 1u, down = m.j + 1u < c.ny, edge = !up || !down;
 
-  precise vec3 P = vec3(0.0);
+  precise real3 P = real3(0.0);
   if (far_pairs) P = m.f02_up2;
   P = P + m.f01_up;
   if (shear) {
@@ -161,12 +161,12 @@ vec3 spring_force(Column c, inout March m) {
   }
 
   m.f01_up = f01_of(c, m.j, m.own, m.down1);  // what the next row calls f01(i, j-1)
-  precise vec3 F = m.f01_up - P;
+  precise real3 F = m.f01_up - P;
   F = F + pair_force(edge ? c.right_edge : c.right_inner, m.own, m.right);
-  precise vec3 f10 = pair_force(edge ? c.left_edge : c.left_inner, m.left, m.own);
+  precise real3 f10 = pair_force(edge ? c.left_edge : c.left_inner, m.left, m.own);
   if (shear) {
     m.left_down = end_at(down && c.left ? p + c.nx - 1u : p);
-    precise vec3 difference = pair_force(down ? c.shear_left : absent, m.own, m.left_down) - f10;
+    precise real3 difference = pair_force(down ? c.shear_left : absent, m.own, m.left_down) - f10;
     F = F + difference;
     m.right_down = end_at(down && c.right ? p + c.nx + 1u : p);
     F = F + pair_force(down ? c.shear_right : absent, m.own, m.right_down);

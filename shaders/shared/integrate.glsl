@@ -1,12 +1,12 @@
 // The body of integrate.comp and of its compensated form (f32k), which define COMPENSATED or not.
 
-READS (vec4, substeps)
-READS (vec4, position)
-READS (vec4, velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
+READS (real4, substeps)
+READS (real4, position)
+READS (real4, velocity)
+WRITES(real4, position_next)
+WRITES(real4, velocity_next)
 #ifdef COMPENSATED
-UPDATES(vec4, compensation)
+UPDATES(real4, compensation)
 #endif
 
 layout(local_size_x = 64) in;
@@ -21,19 +21,19 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #include "drift.glsl"
 
 void move(Step s, Column c, inout March m) {
-  float relative = position[m.p].w;
-  vec3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
-  precise vec3 F = spring_force(c, m);
-  precise float w = relative * s.inverse_mass;
-  precise vec3 x1 = x0;
-  precise vec3 v = v0;
+  real relative = position[m.p].w;
+  real3 x0 = m.own.x, v0 = damping ? m.own.v : velocity[m.p].xyz;
+  precise real3 F = spring_force(c, m);
+  precise real w = relative * s.inverse_mass;
+  precise real3 x1 = x0;
+  precise real3 v = v0;
   if (!pins || w != 0.0) {
     v = kicked_at(m.p, s, v0, acceleration(s, F, w));
     x1 = drifted_at(m.p, s, x0, v);
     if ((spheres || floor_contact) && s.drift > 0.0) touched_at(m.p, s, x0, x1, v);
   }
-  position_next[m.p] = vec4(x1, relative);
-  velocity_next[m.p] = vec4(v, 0.0);
+  position_next[m.p] = real4(x1, relative);
+  velocity_next[m.p] = real4(v, 0.0);
 }
 
 #include "march.glsl"

@@ -8,31 +8,36 @@ WEFT_SHARED_BEGIN
 
 WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
 WEFT_CONST float kTinyLengthSquared = 1e-24f;  // m², guards 1/length of coincident particles
+WEFT_CONST float kNoLength = 1e-12f;           // m; a shorter vector from a sphere's centre has no direction
+WEFT_CONST float kNoNormal = 1e-30f;           // m²; a shorter sum of triangle normals has no direction
 
 // A spring's coefficients in the folded float form, physics page "The float form":
 // x = K, stiffness with folded bending [N/m]; y = L = k·rest [N]; z = c, damping [N·s/m]; w unused.
 // Rows of `structural`: (direction·2 + on_boundary_line)·3 + number of bending triples (0, 1, 2) whose
 // neighbour pair this is. Rows of `flex`: direction·2 + on_boundary_line. direction 0 = along i, 1 = along j.
-struct Params {
-  vec4 structural[12];
-  vec4 flex[4];
-  vec4 shear;
-  vec3 gravity_m_s2;
-  float inverse_mass_1_kg;  // of an interior particle; position.w scales it (0 pinned, 1, 2 edge, 4 corner)
-  float floor_height_m;     // the surface a particle rests on: floor plus half the cloth's thickness
-  float floor_friction;
+WEFT_REAL_STRUCT(Params) {
+  real4 structural[12];
+  real4 flex[4];
+  real4 shear;
+  real3 gravity_m_s2;
+  real inverse_mass_1_kg;  // of an interior particle; position.w scales it (0 pinned, 1, 2 edge, 4 corner)
+  real floor_height_m;     // the surface a particle rests on: floor plus half the cloth's thickness
+  real floor_friction;
   uint nx, ny;  // particles along i and j
   uint sphere_count;
-  uint row_stride;  // vec4s from one row of the substep table to the next
+  uint row_stride;  // real4s from one row of the substep table to the next
 };
+#ifdef __cplusplus
+using Params = ParamsOf<float>;
+#endif
 
-// The substep table is an array of vec4; row r starts at r·row_stride and belongs to dispatch r of the
+// The substep table is an array of real4; row r starts at r·row_stride and belongs to dispatch r of the
 // frame: kick, drift, contact. All of it is computed on the host in double and rounded once.
 //   [0] xyz = alpha·wind(t) at the kick's time [m/s²]    w = 1 - e, what the kick's air takes
 //       (Runge-Kutta: w = alpha itself [1/s])
 //   [1] x = phi, the kick's gain [s]   y = h, the drift's length [s]
 //       z = gain, w = loss of the prediction that follows (velocity Verlet); 0 without
-//   then three vec4 a sphere, in scene order:
+//   then three real4 a sphere, in scene order:
 //   [2+3s] xyz = centre at the drift's end [m]           w = reach: radius + half thickness [m]
 //   [3+3s] xyz = the centre's travel during the drift [m]  w = friction coefficient
 //   [4+3s] xyz = velocity at the drift's end [m/s]       w unused

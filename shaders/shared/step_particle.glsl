@@ -3,12 +3,12 @@
 
 // @param relative  the particle's inverse mass over an interior particle's; 0 when pinned
 // @param x, v      [m], [m/s]; before the substep, then after it
-void step_particle(Step s, vec3 F, float relative, inout vec3 x, inout vec3 v) {
-  precise float w = relative * s.inverse_mass;
+void step_particle(Step s, real3 F, real relative, inout real3 x, inout real3 v) {
+  precise real w = relative * s.inverse_mass;
   if (pins && w == 0.0) return;
-  precise vec3 v1 = kicked(s, v, acceleration(s, F, w));
-  precise vec3 travelled = s.drift * v1;
-  precise vec3 x1 = x + travelled;
+  precise real3 v1 = kicked(s, v, acceleration(s, F, w));
+  precise real3 travelled = s.drift * v1;
+  precise real3 x1 = x + travelled;
   if ((spheres || floor_contact) && s.drift > 0.0) contact(s.row, x, x1, v1);
   x = x1;
   v = v1;

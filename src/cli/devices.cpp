@@ -25,16 +25,19 @@ std::vector<nlohmann::ordered_json> row_of(const gpu::DeviceInfo& info) {
           info.driver,
           info.api_version,
           info.memory_bytes / (1u << 20),
+          info.float64,
           info.uuid,
           info.unusable.empty() ? "yes" : "no: " + info.unusable};
 }
 
 Exit run_devices(const Options& o) {
-  Table table{{"index", "name", "type", "software", "driver", "vulkan", "memory_mib", "uuid", "usable"}, {}};
+  Table table{
+      {"index", "name", "type", "software", "driver", "vulkan", "memory_mib", "float64", "uuid", "usable"},
+      {}};
   const std::vector<gpu::DeviceInfo> found = gpu::list_devices();
   for (const gpu::DeviceInfo& info : found) table.rows.push_back(row_of(info));
   table.rows.push_back(
-      {"cpu", "CPU reference", "reference", true, nullptr, nullptr, nullptr, nullptr, "yes"});
+      {"cpu", "CPU reference", "reference", true, nullptr, nullptr, nullptr, true, nullptr, "yes"});
   print_result(to_text(table, o.format));
   if (found.empty()) note(o, "there is no Vulkan device; install a driver, or use --device cpu");
   return Exit::ok;

@@ -12,17 +12,10 @@
 namespace weft::cli {
 namespace {
 
-constexpr const char* kCpuCure = "run it with --device cpu";
-
-void check_precision(const Options& o, const Scene& scene, const Solver& solver) {
-  const std::string& precision = scene.solver.precision;
-  if (o.on_cpu()) return;
-  if (precision == "f64")
-    throw error(Exit::usage, "{}: precision is f64; on a Vulkan device this version computes in f32; {}",
-                scene.source, kCpuCure);
-  if (!solver.on_gpu)
-    throw error(Exit::usage, "{}: solver {} runs on the CPU reference only; {}", scene.source, solver.name,
-                kCpuCure);
+void require_device_solver(const Options& o, const Scene& scene, const Solver& solver) {
+  if (o.on_cpu() || solver.on_gpu) return;
+  throw error(Exit::usage, "{}: solver {} runs on the CPU reference only; run it with --device cpu",
+              scene.source, solver.name);
 }
 
 }  // namespace
@@ -50,7 +43,7 @@ Scene open_scene(const Options& o, const std::string& number_name_or_path) {
 Setup set_up(const Options& o, const std::string& number_name_or_path) {
   const Scene scene = open_scene(o, number_name_or_path);
   Setup setup{build_model(scene), &find_solver(scene.solver.name)};
-  check_precision(o, scene, *setup.solver);
+  require_device_solver(o, scene, *setup.solver);
   return setup;
 }
 

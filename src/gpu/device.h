@@ -33,6 +33,10 @@ struct DeviceInfo {
 /// Without a Vulkan loader or driver the list is empty.
 std::vector<DeviceInfo> list_devices();
 
+/// Why `device` cannot compute in double, for an error message: it has no float64, and those of `all` that
+/// have.
+std::string no_float64(const DeviceInfo& device, std::span<const DeviceInfo> all);
+
 struct DeviceOptions {
   std::string choice;       ///< part of the name, index in list_devices(), or UUID; empty: the first usable
   bool validation = false;  ///< core and synchronization validation; every message is counted
@@ -50,8 +54,9 @@ struct SubmitSemaphores {
 /// One device with one queue. Use from one thread at a time.
 ///
 /// Every optional feature that DeviceInfo reports is enabled when it is there. Debug switches in the
-/// environment: WEFT_FORCE_STAGING=1; WEFT_FAIL_ALLOCATION_AFTER_BYTES=n lets allocation n+1 fail as if
-/// memory were out; WEFT_SIMULATE_DEVICE_LOSS_AFTER=n lets submission n+1 fail as if the device were lost.
+/// environment: WEFT_FORCE_STAGING=1; WEFT_WITHOUT_FLOAT64=1 lets every device lack float64;
+/// WEFT_FAIL_ALLOCATION_AFTER_BYTES=n lets allocation n+1 fail as if memory were out;
+/// WEFT_SIMULATE_DEVICE_LOSS_AFTER=n lets submission n+1 fail as if the device were lost.
 class Device {
  public:
   /// @throws Error(Exit::no_device) naming the devices there are and why each will not do.

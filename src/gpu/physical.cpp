@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "gpu/environment.h"
 #include "gpu/instance.h"
 
 namespace weft::gpu {
@@ -62,7 +63,8 @@ std::string examine_features(VkPhysicalDevice physical, DeviceInfo& info) {
   VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
   vkGetPhysicalDeviceFeatures2(physical, &features);
-  info.float64 = features.features.shaderFloat64 != VK_FALSE;
+  info.float64 = features.features.shaderFloat64 != VK_FALSE &&
+                 environment_number("WEFT_WITHOUT_FLOAT64").value_or(0) == 0;
   info.wireframe = features.features.fillModeNonSolid != VK_FALSE;
   info.wide_lines = features.features.wideLines != VK_FALSE;
   info.anisotropy = features.features.samplerAnisotropy != VK_FALSE;
@@ -187,6 +189,14 @@ std::vector<DeviceInfo> list_devices() {
     // No driver at all: an empty list is the answer.
   }
   return infos;
+}
+
+std::string no_float64(const DeviceInfo& device, std::span<const DeviceInfo> all) {
+  std::string able;
+  for (const DeviceInfo& info : all)
+    if (info.float64 && info.unusable.empty()) able += (able.empty() ? "" : ", ") + info.name;
+  return fmt::format("{} has no float64; {}", device.name,
+                     able.empty() ? "no device here has it" : "these have it: " + able);
 }
 
 }  // namespace weft::gpu

@@ -66,20 +66,26 @@ shaderc_shader_kind stage_of(const std::filesystem::path& file) {
   throw error(Exit::usage, "{}: a shader's name must end in .comp, .vert or .frag", file.string());
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> compile_glsl_text(std::string_view text, const std::filesystem::path& file) {
+std::vector<std::uint32_t> compile(std::string_view text, const std::filesystem::path& file,
+                                   std::string_view macro) {
   shaderc::CompileOptions options;
   options.SetTargetEnvironment(shaderc_target_env_vulkan, shaderc_env_version_vulkan_1_3);
   options.SetOptimizationLevel(shaderc_optimization_level_performance);
   options.SetWarningsAsErrors();
   options.SetIncluder(std::make_unique<Includer>());
+  if (!macro.empty()) options.AddMacroDefinition(std::string(macro));
   const shaderc::Compiler compiler;
   const auto result =
       compiler.CompileGlslToSpv(text.data(), text.size(), stage_of(file), file.string().c_str(), options);
   if (result.GetCompilationStatus() != shaderc_compilation_status_success)
     throw error(Exit::usage, "The shader does not compile; correct it:\n{}", result.GetErrorMessage());
   return {result.cbegin(), result.cend()};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> compile_glsl_text(std::string_view text, const std::filesystem::path& file) {
+  return compile(text, file, "");
 }
 
 std::vector<std::uint32_t> compile_glsl(const std::filesystem::path& file) {
@@ -99,7 +105,11 @@ std::vector<std::uint32_t> load_spirv(std::string_view name) {
     const std::lock_guard lock(shader_dir().mutex);
     dir = shader_dir().path;
   }
-  if (!dir.empty()) return compile_glsl(dir / name);
+  if (!dir.empty()) {
+    const std::size_t plus = name.find('+');  // SOURCE+MACRO
+    const std::filesystem::path file = dir / name.substr(0, plus);
+    return compile(read_text(file), file, plus == name.npos ? "" : name.substr(plus + 1));
+  }
   for (const EmbeddedSpirv* module = embedded_spirv(); module->name != nullptr; ++module)
     if (name == module->name) return {module->words, module->words + module->count};
   throw error(Exit::internal, "There is no embedded shader \"{}\"", name);

@@ -11,7 +11,8 @@
 
 namespace weft::gpu {
 
-/// Embedded module by its path below shaders/, for example "passes/integrate.comp".
+/// Embedded module by its path below shaders/, for example "passes/integrate.comp"; a variant compiled with a
+/// macro defined is "passes/integrate.comp+MACRO".
 /// When a shader folder is set (set_shader_dir), the source there is compiled with shaderc instead.
 /// @throws Error(Exit::usage) with the compiler's file:line messages.
 std::vector<std::uint32_t> load_spirv(std::string_view name);

@@ -19,7 +19,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 }
 
 /// On the device the order within a bucket is that of arrival.
-void settle_order(const Model&, HostBuffers<float>& buffers) {
+void settle_order(HostWords& buffers) {
   if (!lists_stale(buffers)) return;
   const auto& cells = buffers.words_of(BufferId::cells);
   auto& arrivals = buffers.words_of(BufferId::cell_arrivals);

@@ -85,11 +85,12 @@ std::vector<PairLimit<double>> pair_limits(const Model& model, const CollisionLa
   return limits;
 }
 
-shared::Collision make_collision(const Model& model) {
-  const CollisionView<float> view(model);
-  shared::Collision collision{};
+template <class T>
+shared::CollisionOf<T> make_collision(const Model& model) {
+  const CollisionView<T> view(model);
+  shared::CollisionOf<T> collision{};
   for (std::size_t m = 0; m < view.limits.size(); ++m)
-    collision.limits[m] = {view.limits[m].limit, view.limits[m].squared, view.limits[m].reach_squared, 0.0f};
+    collision.limits[m] = {view.limits[m].limit, view.limits[m].squared, view.limits[m].reach_squared, T(0)};
   collision.inverse_cell_1_m = view.inverse_cell;
   collision.moved_squared_max_m2 = view.moved_squared_max;
   collision.limit_last = view.layout.limit_last;
@@ -99,6 +100,9 @@ shared::Collision make_collision(const Model& model) {
   collision.centre = view.layout.centre;
   return collision;
 }
+
+template shared::CollisionOf<float> make_collision(const Model&);
+template shared::CollisionOf<double> make_collision(const Model&);
 
 Range collision_domain(const Model& model) {
   if (!model.scene.self_collision) return {};

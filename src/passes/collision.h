@@ -35,8 +35,9 @@ double pair_limit_m(double thickness_m, double flat_m);
 /// nearer by more than half the thickness at the speed of the fastest fall the scene allows; at most 16.
 std::uint32_t contact_interval(const Model& model, double substep_s);
 
-/// The block that the device reads.
-shared::Collision make_collision(const Model& model);
+/// The block that the device reads, computed in double and rounded once to T.
+template <class T = float>
+shared::CollisionOf<T> make_collision(const Model& model);
 
 /// Whole cloth, or nothing when the scene has no [self_collision].
 Range collision_domain(const Model& model);
@@ -127,8 +128,7 @@ T squared_distance(const glm::vec<4, T>& a, const glm::vec<4, T>& b) {
 }
 
 /// Whether the lists are being made anew: what the passes between pair_check and pair_gather ask first.
-template <class T>
-bool lists_stale(const HostBuffers<T>& buffers) {
+inline bool lists_stale(const HostWords& buffers) {
   return buffers.words_of(BufferId::collision_state)[shared::kListGroups] != 0;
 }
 

@@ -53,7 +53,8 @@ void sphere_contact(const SphereRow<T>& sphere, const glm::vec<3, T>& x0, glm::v
   glm::vec<3, T> point;
   if (!sphere_contact_point(sphere, p0, p1, point)) return;
   const T l = std::sqrt(dot3(point, point));
-  const glm::vec<3, T> n = l > static_cast<T>(1e-12) ? point * (T(1) / l) : glm::vec<3, T>(T(0), T(1), T(0));
+  const glm::vec<3, T> n =
+      l > static_cast<T>(shared::kNoLength) ? point * (T(1) / l) : glm::vec<3, T>(T(0), T(1), T(0));
   x1 = sphere.center + sphere.reach * n;
   v = respond(v, sphere.velocity, n, sphere.friction);
 }

@@ -47,7 +47,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       for (std::uint32_t i = 0; i < grid.nx; ++i) {
         const glm::vec<3, T> n = normal_sum(grid, position, i, j);
         const T l = std::sqrt((n.x * n.x + n.y * n.y) + n.z * n.z);
-        const glm::vec<3, T> unit = l > static_cast<T>(1e-30) ? n * (T(1) / l) : glm::vec<3, T>(T(0));
+        const glm::vec<3, T> unit =
+            l > static_cast<T>(shared::kNoNormal) ? n * (T(1) / l) : glm::vec<3, T>(T(0));
         normal[grid.index(i, j)] = glm::vec<4, T>(unit, T(0));
       }
     }

@@ -66,8 +66,8 @@ struct Pass {
   /// Runs only where this word of collision_state is not 0; the word and the two after it are its workgroups,
   /// by which a device skips it without being asked. The mirror and the shader look at the word themselves.
   std::optional<std::uint32_t> groups_word = std::nullopt;
-  /// Brings buffers whose order the device may choose into one order, for comparisons; null: there are none.
-  void (*settle_order)(const Model&, HostBuffers<float>&) = nullptr;
+  /// Brings indices whose order the device may choose into one order, for comparisons; null: there are none.
+  void (*settle_order)(HostWords&) = nullptr;
 };
 
 }  // namespace weft

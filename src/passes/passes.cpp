@@ -19,6 +19,7 @@ std::span<const Pass* const> passes() {
                                       &xpbd_spring,
                                       &xpbd_bend,
                                       &xpbd_finish,
+                                      &present,
                                       &integrate_compensated,
                                       &velocity_verlet_compensated,
                                       &normals,

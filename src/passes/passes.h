@@ -21,6 +21,7 @@ extern const Pass xpbd_bend;                    ///< XPBD: the bending triples o
 extern const Pass xpbd_finish;                  ///< XPBD: velocities and contact
 extern const Pass integrate_compensated;        ///< f32k
 extern const Pass velocity_verlet_compensated;  ///< f32k
+extern const Pass present;                      ///< f64: what is drawn, in float
 extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
 extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid

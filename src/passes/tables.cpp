@@ -6,21 +6,22 @@
 
 namespace weft {
 
-shared::Params make_params(const Model& model) {
+template <class T>
+shared::ParamsOf<T> make_params(const Model& model) {
   const Scene& scene = model.scene;
   if (scene.spheres.size() > shared::kMaxSpheres)
     throw error(Exit::usage, "{}: there are {} [[spheres]]; at most {} are possible (remove some)",
                 scene.source.empty() ? "scene" : scene.source, scene.spheres.size(), shared::kMaxSpheres);
-  const SpringRows<float> springs = spring_rows<float>(model);
-  shared::Params params{};
+  const SpringRows<T> springs = spring_rows<T>(model);
+  shared::ParamsOf<T> params{};
   for (std::size_t r = 0; r < springs.structural.size(); ++r) params.structural[r] = springs.structural[r];
   for (std::size_t r = 0; r < springs.flex.size(); ++r) params.flex[r] = springs.flex[r];
   params.shear = springs.shear;
   if (scene.gravity) params.gravity_m_s2 = scene.gravity->acceleration_m_s2;
-  params.inverse_mass_1_kg = static_cast<float>(1.0 / model.interior_mass_kg);
+  params.inverse_mass_1_kg = static_cast<T>(1.0 / model.interior_mass_kg);
   if (scene.floor) {
-    params.floor_height_m = static_cast<float>(scene.floor->height_m + model.half_thickness_m);
-    params.floor_friction = static_cast<float>(scene.floor->friction);
+    params.floor_height_m = static_cast<T>(scene.floor->height_m + model.half_thickness_m);
+    params.floor_friction = static_cast<T>(scene.floor->friction);
   }
   params.nx = model.grid.nx;
   params.ny = model.grid.ny;
@@ -34,17 +35,18 @@ std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
   return {(grid.nx + kGroup - 1) / kGroup, grid.ny, 1, 1, 1, 1, 0, 0};
 }
 
+template <class T>
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
-                       std::vector<shared::vec4>& table) {
+                       std::vector<glm::vec<4, T>>& table) {
   table.clear();
   for (const KickDrift& kick_drift : rows) {
-    const SubstepRow<float> row = substep_row<float>(model, kick_drift);
+    const SubstepRow<T> row = substep_row<T>(model, kick_drift);
     table.emplace_back(row.alpha_wind, row.loss);
     table.emplace_back(row.gain, row.drift, row.predict_gain, row.predict_loss);
-    for (const SphereRow<float>& sphere : row.spheres) {
+    for (const SphereRow<T>& sphere : row.spheres) {
       table.emplace_back(sphere.center, sphere.reach);
       table.emplace_back(sphere.travel, sphere.friction);
-      table.emplace_back(sphere.velocity, 0.0f);
+      table.emplace_back(sphere.velocity, T(0));
     }
   }
 }
@@ -92,6 +94,10 @@ State store_state(const HostBuffers<T>& buffers, double time_s) {
   return state;
 }
 
+template shared::ParamsOf<float> make_params(const Model&);
+template shared::ParamsOf<double> make_params(const Model&);
+template void fill_substep_rows(const Model&, std::span<const KickDrift>, std::vector<glm::vec<4, float>>&);
+template void fill_substep_rows(const Model&, std::span<const KickDrift>, std::vector<glm::vec<4, double>>&);
 template void load_state(const Model&, const State&, HostBuffers<float>&);
 template void load_state(const Model&, const State&, HostBuffers<double>&);
 template State store_state(const HostBuffers<float>&, double);

@@ -11,13 +11,16 @@ namespace weft {
 
 /// Everything in it is computed in double and rounded once.
 /// @throws Error(Exit::usage) when the scene has more spheres than shared::kMaxSpheres
-shared::Params make_params(const Model& model);
+template <class T = float>
+shared::ParamsOf<T> make_params(const Model& model);
 
 /// The words of collision_state before the first substep: no lists are there yet.
 std::vector<std::uint32_t> initial_collision_state(const Grid& grid);
 
 /// Replaces `table` with the rows of one frame, in the layout that shared/params.h documents.
-void fill_substep_rows(const Model& model, std::span<const KickDrift> rows, std::vector<shared::vec4>& table);
+template <class T>
+void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
+                       std::vector<glm::vec<4, T>>& table);
 
 /// Rounds a state into position (w = relative inverse mass) and velocity (w = 0), both resized to the grid.
 /// Where `buffers` has room for the compensation, it takes what rounding adds to positions and

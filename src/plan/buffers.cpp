@@ -18,20 +18,24 @@ std::uint32_t substep_row_stride(const Model& model) {
          shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size());
 }
 
-std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows) {
-  const std::uint64_t element = row_of(id).element_bytes;
+std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows) {
   switch (id) {
-    case BufferId::params: return element;
-    case BufferId::compensation: return 2 * element * model.grid.count();
-    case BufferId::constraints: return element * shared::kConstraintRows;
-    case BufferId::substeps: return element * substep_row_capacity(rows) * substep_row_stride(model);
-    case BufferId::collision: return element;
-    case BufferId::collision_state: return element * shared::kCollisionStateWords;
-    case BufferId::cells: return element * (collision_layout(model).buckets + std::uint64_t{1});
-    case BufferId::pair_places: return element * collision_layout(model).capacity * model.grid.count();
+    case BufferId::params: return 1;
+    case BufferId::compensation: return 2 * std::uint64_t{model.grid.count()};
+    case BufferId::constraints: return shared::kConstraintRows;
+    case BufferId::substeps: return std::uint64_t{substep_row_capacity(rows)} * substep_row_stride(model);
+    case BufferId::collision: return 1;
+    case BufferId::collision_state: return shared::kCollisionStateWords;
+    case BufferId::cells: return collision_layout(model).buckets + std::uint64_t{1};
+    case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
     default:  // one element a particle
-      return element * model.grid.count();
+      return model.grid.count();
   }
+}
+
+std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows, bool in_double) {
+  const BufferRow& row = row_of(id);
+  return (in_double ? row.element_bytes_double : row.element_bytes) * element_count(id, model, rows);
 }
 
 bool host_written(BufferId id) {
@@ -78,6 +82,9 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &xpbd_predict) return kXpbdPredict;
   if (&pass == &xpbd_spring || &pass == &xpbd_bend) return kXpbdSpring;
   if (&pass == &xpbd_finish) return kXpbdFinish;
+  static constexpr std::array kPresent = {BufferId::params, BufferId::position, BufferId::normal,
+                                          BufferId::draw_position, BufferId::draw_normal};
+  if (&pass == &present) return kPresent;
   using enum BufferId;
   static constexpr std::array kPairCheck = {params,          position,       collision,
                                             collision_state, built_position, cells};
@@ -107,9 +114,9 @@ template <class T>
 void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers) {
   for (const PlanBuffer& buffer : plan.buffers) {
     if (holds_words(buffer.id))
-      buffers.words_of(buffer.id).assign(buffer.bytes / sizeof(std::uint32_t), 0);
-    else if (row_of(buffer.id).element == "vec4" && slot_count(buffer.id) == 1)
-      buffers[buffer.id].assign(buffer.bytes / sizeof(shared::vec4), glm::vec<4, T>(T(0)));
+      buffers.words_of(buffer.id).assign(element_count(buffer.id, model, plan.row_count()), 0);
+    else if (holds_vectors(buffer.id) && slot_count(buffer.id) == 1)
+      buffers[buffer.id].assign(element_count(buffer.id, model, plan.row_count()), glm::vec<4, T>(T(0)));
   }
   auto& state = buffers.words_of(BufferId::collision_state);
   if (!state.empty()) state = initial_collision_state(model.grid);

@@ -20,7 +20,10 @@ std::uint32_t substep_row_capacity(std::uint32_t rows);
 std::uint32_t substep_row_stride(const Model& model);
 
 /// Bytes of one copy of a buffer for this model and number of rows a frame.
-std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows);
+std::uint64_t slot_bytes(BufferId id, const Model& model, std::uint32_t rows, bool in_double = false);
+
+/// Elements of one copy.
+std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows);
 
 /// Whether the host writes the buffer, from the model and the schedule: mirrors compute what is in it.
 bool host_written(BufferId id);

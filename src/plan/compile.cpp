@@ -57,15 +57,15 @@ std::vector<LeftOut> left_out_effects(const Model& model) {
   return left_out;
 }
 
-std::vector<PlanBuffer> buffers_for(const Model& model, std::uint32_t rows,
-                                    const std::vector<PlanStep>& steps) {
+std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
   std::set<BufferId> needed;
-  for (const PlanStep& step : steps) {
+  for (const PlanStep& step : plan.steps) {
     const auto touched = buffers_of(*step.pass);
     needed.insert(touched.begin(), touched.end());
   }
   std::vector<PlanBuffer> buffers;
-  for (const BufferId id : needed) buffers.push_back({id, slot_bytes(id, model, rows) * slot_count(id)});
+  for (const BufferId id : needed)
+    buffers.push_back({id, slot_bytes(id, model, plan.row_count(), plan.in_double()) * slot_count(id)});
   return buffers;
 }
 
@@ -128,7 +128,13 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
   plan.precision = precision;
   plan.substeps = substeps_per_frame(model, solver);
   plan.steps = steps_for(model, solver, plan.substeps, precision == "f32k");
-  plan.buffers = buffers_for(model, plan.row_count(), plan.steps);
+  if (plan.in_double())  // drawing reads floats
+    plan.steps.push_back({.pass = &present,
+                          .block = Block::frame_end,
+                          .repeat = 1,
+                          .range = present.domain(model),
+                          .constants = {}});
+  plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
   return plan;
 }

@@ -41,6 +41,7 @@ struct Plan {
   std::vector<PlanStep> steps;      ///< frame_start, substep, frame_end, in execution order
   std::vector<PlanBuffer> buffers;  ///< ascending binding
   std::vector<LeftOut> left_out;
+  bool in_double() const { return precision == "f64"; }
   std::uint64_t bytes() const;
   std::uint64_t dispatches() const;  ///< a full frame's
   std::uint32_t row_count() const {

@@ -31,10 +31,10 @@ std::string constants_text(const Constants& constants) {
   return text.empty() ? "-" : text;
 }
 
-std::string buffer_note(BufferId id, const Model& model, const Plan& plan) {
+std::string buffer_note(BufferId id, const Plan& plan) {
   if (id != BufferId::substeps) return std::string(row_of(id).unit);
   return fmt::format("{}; {} copies of {} rows", row_of(id).unit, slot_count(id),
-                     slot_bytes(id, model, plan.row_count()) / (16 * substep_row_stride(model)));
+                     substep_row_capacity(plan.row_count()));
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ std::string describe(const Plan& plan, const Model& model) {
   text += fmt::format("\n{:<16} {:>12}  {}\n", "buffer", "bytes", "holds");
   for (const PlanBuffer& buffer : plan.buffers)
     text += fmt::format("{:<16} {:>12}  {}\n", row_of(buffer.id).name, buffer.bytes,
-                        buffer_note(buffer.id, model, plan));
+                        buffer_note(buffer.id, plan));
   text += fmt::format("{:<16} {:>12}  {}\n\nleft out:\n", "total", plan.bytes(), byte_text(plan.bytes()));
   for (const LeftOut& left_out : plan.left_out)
     text += fmt::format("  {:<16} {}\n", left_out.effect, left_out.reason);

@@ -1,30 +1,40 @@
-// How far two lists of floats are apart.
+// How far two lists of numbers are apart.
 #include "sim/compare.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
+#include <type_traits>
 
 namespace weft {
 namespace {
 
-/// Floats in ascending order as consecutive integers, both zeros at 0.
-std::int64_t ordered(float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
-  return (bits >> 31) != 0 ? -magnitude : magnitude;
+/// Numbers in ascending order as consecutive integers, both zeros at 0.
+template <class T>
+std::int64_t ordered(T value) {
+  using Word = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+  constexpr Word kSign = Word{1} << (8 * sizeof(T) - 1);
+  const auto bits = std::bit_cast<Word>(value);
+  const auto magnitude = static_cast<std::int64_t>(bits & ~kSign);
+  return (bits & kSign) != 0 ? -magnitude : magnitude;
 }
 
 template <class T>
-Difference compare(std::span<const glm::vec4> got, std::span<const glm::vec<4, T>> expected) {
+std::uint64_t steps_between(T a, T b) {
+  const std::int64_t i = ordered(a), k = ordered(b);
+  const auto difference = static_cast<std::uint64_t>(i) - static_cast<std::uint64_t>(k);  // may exceed int64
+  return i >= k ? difference : 0 - difference;
+}
+
+template <class G, class E>
+Difference compare(std::span<const glm::vec<4, G>> got, std::span<const glm::vec<4, E>> expected) {
   Difference result;
   double squares = 0;
   glm::dvec4 sum(0.0);
   for (std::size_t p = 0; p < expected.size(); ++p)
     for (int c = 0; c < 4; ++c) {
-      const float a = got[p][c];
-      const T b = expected[p][c];
+      const G a = got[p][c];
+      const E b = expected[p][c];
       if (!std::isfinite(a) || !std::isfinite(b)) {
         result.finite = false;
         continue;
@@ -32,7 +42,7 @@ Difference compare(std::span<const glm::vec4> got, std::span<const glm::vec<4, T
       const double apart = double{a} - double{b};
       result.max_abs = std::max(result.max_abs, std::abs(apart));
       result.magnitude = std::max(result.magnitude, std::abs(double{b}));
-      result.max_ulp = std::max(result.max_ulp, ulp_between(a, static_cast<float>(b)));
+      result.max_ulp = std::max(result.max_ulp, ulp_between(a, static_cast<G>(b)));
       squares += apart * apart;
       sum[c] += apart;
     }
@@ -45,16 +55,19 @@ Difference compare(std::span<const glm::vec4> got, std::span<const glm::vec<4, T
 
 }  // namespace
 
-std::uint64_t ulp_between(float a, float b) {
-  return static_cast<std::uint64_t>(std::llabs(ordered(a) - ordered(b)));
-}
+std::uint64_t ulp_between(float a, float b) { return steps_between(a, b); }
+std::uint64_t ulp_between(double a, double b) { return steps_between(a, b); }
 
 Difference difference(std::span<const glm::vec4> got, std::span<const glm::vec4> expected) {
-  return compare<float>(got, expected);
+  return compare(got, expected);
+}
+
+Difference difference(std::span<const glm::dvec4> got, std::span<const glm::dvec4> expected) {
+  return compare(got, expected);
 }
 
 Difference difference(std::span<const glm::vec4> got, std::span<const glm::dvec4> expected) {
-  return compare<double>(got, expected);
+  return compare(got, expected);
 }
 
 }  // namespace weft

@@ -26,6 +26,8 @@ VkBufferUsageFlags usage_of(BufferId id) {
       return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     case BufferId::velocity:
     case BufferId::velocity_next: return kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    case BufferId::draw_position:
+    case BufferId::draw_normal:
     case BufferId::normal: return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     case BufferId::band_scratch: return kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     case BufferId::collision_state: return kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
@@ -35,18 +37,25 @@ VkBufferUsageFlags usage_of(BufferId id) {
 
 }  // namespace
 
+void require_precision(const gpu::Device& device, const Model& model, const Plan& plan) {
+  if (!plan.in_double() || device.info().float64) return;
+  throw error(Exit::no_device, "{}: solver.precision is f64, and {}; --device cpu computes it, too",
+              model.scene.source, gpu::no_float64(device.info(), gpu::list_devices()));
+}
+
 void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
   const std::uint64_t range = device.limits().maxStorageBufferRange;
   const std::uint64_t heap = device.info().memory_bytes;
   std::uint64_t largest = 0, particle_bytes = 0;
   for (const PlanBuffer& buffer : plan.buffers) {
     largest = std::max(largest, buffer.bytes / slot_count(buffer.id));
-    if (slot_count(buffer.id) == 1) particle_bytes += row_of(buffer.id).element_bytes;
+    if (slot_count(buffer.id) == 1) particle_bytes += buffer.bytes / model.grid.count();
   }
   if (largest <= range && plan.bytes() <= heap) return;
   const std::uint64_t fixed = plan.bytes() - particle_bytes * model.grid.count();
   const std::uint64_t room = heap > fixed ? (heap - fixed) / particle_bytes : 0;
-  const std::uint64_t most = std::min(range / 16, room);
+  const std::uint64_t most =
+      std::min<std::uint64_t>(range / (plan.in_double() ? sizeof(glm::dvec4) : sizeof(glm::vec4)), room);
   std::uint32_t fits = model.grid.nx;
   while (fits > 2 && particles_at(model.scene, fits) > most) --fits;
   throw error(Exit::no_device,
@@ -58,6 +67,7 @@ void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
 }
 
 GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan, const Kernel& kernel) {
+  require_precision(device, model, plan);
   require_fits(device, model, plan);
   for (const PlanBuffer& wanted : plan.buffers) {
     const std::uint32_t slots = slot_count(wanted.id);
@@ -113,7 +123,7 @@ struct GpuProgram::Variant {
 /// The one place that says what a kernel is on a device. Workgroups are small on software devices, where each
 /// is one thread's, and of 64 elsewhere.
 GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const PlanStep& step,
-                                            const Kernel& kernel, bool several) {
+                                            const Kernel& kernel, bool several, bool doubles) {
   const std::string name = "passes/" + std::string(step.pass->name);
   const auto local = [&](std::uint32_t needed) {
     const std::uint32_t most = device.info().software ? 256 : 64;
@@ -132,12 +142,12 @@ GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const Pla
   const std::uint32_t rows = step.pass->marches ? kernel.rows : 1;
   const std::vector<std::uint32_t> constants(step.pass->marches ? 1 : 0, rows);
   const bool texel = step.pass == &integrate && kernel.kind == KernelKind::texel;
-  return {name + (texel ? "_texel.comp" : ".comp"), constants, 1, rows};
+  return {name + (texel ? "_texel.comp" : ".comp") + (doubles ? "+WEFT_F64" : ""), constants, 1, rows};
 }
 
 GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers,
                        std::shared_ptr<GpuPipelines> pipelines, const std::optional<Kernel>& kernel)
-    : kernel_(kernel ? *kernel : direct_kernel(device, plan)) {
+    : kernel_(kernel ? *kernel : direct_kernel(device, plan)), doubles_(plan.in_double()) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
     Step& made = steps_.emplace_back(
@@ -152,7 +162,7 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
 
 GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
                                       GpuPipelines& pipelines, bool several) {
-  const Variant variant = variant_for(device, step, kernel_, several);
+  const Variant variant = variant_for(device, step, kernel_, several, doubles_);
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
   const auto& local = pipelines_[pipeline].pipeline->reflection().local_size;

@@ -22,10 +22,15 @@ namespace weft {
 ///         its memory: bytes needed, bytes there, largest resolution that fits.
 void require_fits(gpu::Device&, const Model&, const Plan&);
 
+/// @throws Error(Exit::no_device) when the plan computes in double and the device has no float64: names those
+///         that have it.
+void require_precision(const gpu::Device&, const Model&, const Plan&);
+
 /// The plan's buffers and the kernel's scratch, and only those. What the host writes each frame exists once a
 /// frame slot.
 class GpuBuffers {
  public:
+  /// @throws Error(Exit::no_device) as require_precision() and require_fits() say
   GpuBuffers(gpu::Device&, const Model&, const Plan&, const Kernel& kernel = {});
   gpu::Buffer& at(BufferId id, std::uint32_t slot = 0);
   const gpu::Buffer& at(BufferId id, std::uint32_t slot = 0) const;
@@ -80,10 +85,11 @@ class GpuProgram {
     VkDeviceSize groups_offset = 0;       ///< bytes
   };
   struct Variant;
-  static Variant variant_for(const gpu::Device&, const PlanStep&, const Kernel&, bool several);
+  static Variant variant_for(const gpu::Device&, const PlanStep&, const Kernel&, bool several, bool doubles);
   Work work_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&, bool several);
   std::size_t pipeline_for(gpu::Device&, const PlanStep&, const Variant&, const GpuBuffers&, GpuPipelines&);
   Kernel kernel_;
+  bool doubles_;
   std::vector<Pipeline> pipelines_;
   std::vector<Step> steps_;
 };

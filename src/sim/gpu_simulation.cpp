@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "passes/collision.h"
 #include "passes/tables.h"
-#include "passes/xpbd.h"
+#include "sim/device_data.h"
 #include "sim/frame_commands.h"
 #include "sim/perturb.h"
 #include "sim/submit_pacer.h"
@@ -59,7 +58,7 @@ class VulkanSimulation final : public GpuSimulation {
         program_(device, program_plan_, buffers_, pipelines_, choice_.kernel),
         commands_(device, plan_, program_),
         pacer_(options.dispatches_per_submit) {
-    write_params();
+    write_blocks(buffers_, model_, plan_, perturbation_);
     if (model_.scene.self_collision) {
       const std::vector<std::uint32_t> state = initial_collision_state(model_.grid);
       buffers_.at(BufferId::collision_state).write(std::as_bytes(std::span(state)));
@@ -91,6 +90,8 @@ class VulkanSimulation final : public GpuSimulation {
   std::uint32_t submit_count() const override { return submits_; }
   std::vector<double> step_ms() const override { return step_ms_; }
   DrawBuffers draw_buffers() const override {
+    if (buffers_.has(BufferId::draw_position))
+      return {buffers_.at(BufferId::draw_position).handle(), buffers_.at(BufferId::draw_normal).handle()};
     return {buffers_.at(at_parity(BufferId::position, parity_)).handle(),
             buffers_.has(BufferId::normal) ? buffers_.at(BufferId::normal).handle() : VK_NULL_HANDLE};
   }
@@ -125,13 +126,6 @@ class VulkanSimulation final : public GpuSimulation {
     perturbation.apply(plan);
     return plan;
   }
-  /// What holds the canonical state.
-  std::vector<BufferId> state_buffers() const {
-    std::vector<BufferId> ids{BufferId::position, BufferId::velocity};
-    if (buffers_.has(BufferId::compensation)) ids.push_back(BufferId::compensation);
-    return ids;
-  }
-  void write_params();
   void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
   void submit(FrameCommands::Chunk& chunk, Slot& slot);
   void finish(Slot& slot);
@@ -150,29 +144,12 @@ class VulkanSimulation final : public GpuSimulation {
   SubmitPacer pacer_;
   std::array<Slot, kFrameSlots> slots_;
   Frame frame_;
-  std::vector<shared::vec4> table_;
   std::vector<double> step_ms_;
   Parity parity_ = 0;
   std::uint64_t frames_ = 0;
   std::uint32_t submits_ = 0;
   double time_s_ = 0;
 };
-
-void VulkanSimulation::write_params() {
-  shared::Params params = make_params(model_);
-  perturbation_.apply(model_, params);
-  for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
-    buffers_.at(BufferId::params, slot).write(std::as_bytes(std::span(&params, 1)));
-  if (buffers_.has(BufferId::constraints)) {
-    ConstraintRows<float> constraints = constraint_rows<float>(model_);
-    perturbation_.apply(constraints);
-    for (std::uint32_t slot = 0; slot < kFrameSlots; ++slot)
-      buffers_.at(BufferId::constraints, slot).write(std::as_bytes(std::span(constraints)));
-  }
-  if (!model_.scene.self_collision) return;
-  const shared::Collision collision = make_collision(model_);
-  buffers_.at(BufferId::collision).write(std::as_bytes(std::span(&collision, 1)));
-}
 
 std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
   if (!model_.scene.self_collision) return std::nullopt;
@@ -184,14 +161,13 @@ std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
 
 void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
   const std::vector<KickDrift> rows = plan_.solver->schedule(time_s_, frame_s, substeps);
-  fill_substep_rows(model_, rows, table_);
-  perturbation_.apply(table_, substep_row_stride(model_));
-  gpu::Buffer& table = buffers_.at(BufferId::substeps, slot);
-  if (table_.size() * sizeof(shared::vec4) > table.bytes())
+  const Bytes table = table_bytes(model_, plan_, rows, perturbation_);
+  gpu::Buffer& buffer = buffers_.at(BufferId::substeps, slot);
+  if (table.size() > buffer.bytes())
     throw error(Exit::internal,
                 "a frame of {} substeps needs {} rows; the plan of {} substeps has room for {}", substeps,
                 rows.size(), plan_.substeps, substep_row_capacity(plan_.row_count()));
-  table.write(std::as_bytes(std::span(table_)));
+  buffer.write(table);
 }
 
 void VulkanSimulation::submit(FrameCommands::Chunk& chunk, Slot& slot) {
@@ -280,22 +256,13 @@ void VulkanSimulation::end_frame() {
 
 State VulkanSimulation::read() {
   wait();
-  HostBuffers<float> host;
-  for (const BufferId id : state_buffers()) {
-    host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
-    buffers_.at(at_parity(id, parity_)).read(std::as_writable_bytes(std::span(host[id])));
-  }
-  return store_state(host, time_s_);
+  return read_state(buffers_, parity_, model_, plan_, time_s_);
 }
 
 void VulkanSimulation::write(const State& state) {
   wait();
   frame_.order.reset();
-  HostBuffers<float> host;
-  for (const BufferId id : state_buffers()) host[id].resize(buffers_.at(id).bytes() / sizeof(shared::vec4));
-  load_state(model_, state, host);
-  for (const BufferId id : state_buffers())
-    buffers_.at(at_parity(id, parity_)).write(std::as_bytes(std::span(host[id])));
+  write_state(buffers_, parity_, model_, plan_, state);
   time_s_ = state.time_s;
   refresh_normals();
 }
@@ -323,30 +290,14 @@ bool VulkanSimulation::adopt(const Model& model) {
   frame_.order.reset();
   model_ = model;
   plan_ = std::move(next);
-  write_params();
+  write_blocks(buffers_, model_, plan_, perturbation_);
   if (new_masses) write(state);
   return true;
 }
 
 void VulkanSimulation::place(std::span<const PlacedParticle> particles) {
   wait();
-  for (std::size_t first = 0; first < particles.size();) {
-    std::vector<glm::vec4> positions, velocities;
-    std::size_t next = first;
-    while (next < particles.size() &&
-           particles[next].particle == particles[first].particle + (next - first)) {
-      if (model_.relative_inverse_mass.at(particles[next].particle) != 0.0)
-        throw error(Exit::internal, "particle {} is to be placed but is not pinned",
-                    particles[next].particle);
-      positions.emplace_back(particles[next].position_m, 0.0f);
-      velocities.emplace_back(particles[next].velocity_m_s, 0.0f);
-      ++next;
-    }
-    const VkDeviceSize offset = particles[first].particle * sizeof(glm::vec4);
-    buffers_.at(at_parity(BufferId::position, parity_)).write(std::as_bytes(std::span(positions)), offset);
-    buffers_.at(at_parity(BufferId::velocity, parity_)).write(std::as_bytes(std::span(velocities)), offset);
-    first = next;
-  }
+  write_placed(buffers_, parity_, model_, plan_, particles);
 }
 
 }  // namespace

@@ -39,7 +39,9 @@ class GpuSimulation : public Simulation {
   /// Starts from start_state(model), with normals, on the device; the model is copied.
   /// @throws Error(Exit::no_device) when the cloth is too large for the device, before anything is allocated:
   ///         the bytes needed, the bytes there, and the largest resolution that fits.
-  /// @throws Error(Exit::usage) when the solver has no GPU passes.
+  /// The scene's solver.precision decides how it computes; f64 draws from floats made at the frame's end.
+  /// @throws Error(Exit::no_device) for f64 on a device without float64: names those that have it.
+  /// @throws Error(Exit::usage) when the solver has no GPU passes or not this precision.
   static std::unique_ptr<GpuSimulation> create(gpu::Device&, const Model&, const Solver&,
                                                const GpuSimulationOptions& = {});
   virtual DrawBuffers draw_buffers() const = 0;

@@ -19,7 +19,9 @@ constexpr std::uint32_t kParticle = 2;  // vec4s: position and velocity
 constexpr std::uint64_t kMostForBands = 1u
                                         << 17;  // particles; beyond, a dispatch costs little beside its work
 
+/// The step that the kernels are for: they read texels, which are floats.
 const PlanStep* substep_integrate(const Plan& plan) {
+  if (plan.in_double()) return nullptr;
   for (const PlanStep& step : plan.steps)
     if (step.pass == &integrate && step.block == Block::substep) return &step;
   return nullptr;
@@ -29,6 +31,12 @@ const PlanStep* substep_integrate(const Plan& plan) {
 /// at least about 16 rows of workgroups for its threads. A GPU needs the invocations.
 std::uint32_t march_rows(const gpu::Device& device, std::uint32_t ny) {
   return device.info().software ? std::clamp(ny / 16, 4u, 16u) : 1;
+}
+
+/// Why there is no such step.
+std::string no_integrate(const Plan& plan) {
+  return plan.in_double() ? "it computes in float, and this plan is in double (f64)"
+                          : "the plan has no pass integrate";
 }
 
 std::string texels_unfit(const gpu::Device& device, std::uint64_t texels) {
@@ -54,7 +62,7 @@ std::string bands_unfit(const gpu::Device& device, const Plan& plan, const Kerne
 std::string unfit(const gpu::Device& device, const Plan& plan, const Kernel& kernel) {
   if (kernel.kind == KernelKind::direct) return {};
   const PlanStep* step = substep_integrate(plan);
-  if (step == nullptr) return "the plan has no pass integrate";
+  if (step == nullptr) return no_integrate(plan);
   std::string reason = texels_unfit(device, std::uint64_t{step->range.x} * step->range.y);
   if (reason.empty() && kernel.kind == KernelKind::bands) reason = bands_unfit(device, plan, kernel);
   return reason;
@@ -107,7 +115,7 @@ Kernel named_kernel(const gpu::Device& device, const Plan& plan, const std::stri
   const auto known = std::ranges::find(kNames, name);
   if (known == kNames.end() || name == "auto")
     throw error(Exit::usage, "kernel is \"{}\"; it must be direct, texel, strip, bands or auto", name);
-  std::string reason = "the plan has no pass integrate";
+  std::string reason = no_integrate(plan);
   for (const KernelCandidate& candidate : kernel_candidates(device, plan)) {
     if (candidate.kernel.kind != static_cast<KernelKind>(known - kNames.begin())) continue;
     if (candidate.unfit.empty()) return candidate.kernel;

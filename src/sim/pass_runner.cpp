@@ -4,10 +4,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "passes/collision.h"
-#include "passes/tables.h"
-#include "passes/xpbd.h"
-
 namespace weft {
 namespace {
 
@@ -24,9 +20,35 @@ void fill_pattern(std::span<std::byte> bytes) {
   }
 }
 
-void fill_poison(std::span<std::byte> bytes) {
-  for (std::size_t word = 0; word < bytes.size() / sizeof kPoison; ++word)
-    std::memcpy(bytes.data() + word * sizeof kPoison, &kPoison, sizeof kPoison);
+template <class T>
+void fill(std::span<std::byte> bytes, T value) {
+  for (std::size_t at = 0; at + sizeof value <= bytes.size(); at += sizeof value)
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+template <class T>
+void fill_poison(BufferId id, std::span<std::byte> bytes) {
+  if (holds_words(id) || holds_floats(id)) return fill(bytes, kPoison);
+  fill(bytes, poison<T>());
+}
+
+/// Of a device's buffer of type E.
+template <class T, class E>
+std::vector<T> elements_in(std::span<const std::byte> bytes) {
+  std::vector<E> elements(bytes.size() / sizeof(E));
+  std::memcpy(elements.data(), bytes.data(), bytes.size());
+  return {elements.begin(), elements.end()};
+}
+
+template <class T>
+void take(BufferId id, std::span<const std::byte> bytes, HostBuffers<T>& buffers) {
+  using Vector = glm::vec<4, T>;
+  if (holds_words(id))
+    buffers.words_of(id) = elements_in<std::uint32_t, std::uint32_t>(bytes);
+  else if (holds_floats(id))
+    buffers[id] = elements_in<Vector, glm::vec4>(bytes);
+  else if (holds_vectors(id))
+    buffers[id] = elements_in<Vector, Vector>(bytes);
 }
 
 }  // namespace
@@ -46,43 +68,35 @@ PassRunner::Use PassRunner::use_of(std::size_t step, BufferId id) const {
   return {};
 }
 
-std::map<BufferId, PassRunner::Bytes> PassRunner::contents(std::size_t step, const HostBuffers<float>& input,
-                                                           std::span<const KickDrift> rows) const {
+template <class T>
+std::map<BufferId, Bytes> PassRunner::contents(std::size_t step, const HostBuffers<T>& input,
+                                               std::span<const KickDrift> rows) const {
   std::map<BufferId, Bytes> contents;
   for (const PlanBuffer& planned : plan_.buffers) {
     const BufferId id = planned.id;
     Bytes& bytes = contents[id];
     bytes.resize(buffers_.at(id).bytes());
     fill_pattern(bytes);
-    if (id == BufferId::params) {
-      shared::Params params = make_params(model_);
-      perturbation_.apply(model_, params);
-      std::memcpy(bytes.data(), &params, sizeof params);
-    } else if (id == BufferId::substeps) {
-      std::vector<shared::vec4> table;
-      fill_substep_rows(model_, rows, table);
-      perturbation_.apply(table, substep_row_stride(model_));
-      std::memcpy(bytes.data(), table.data(), std::min(bytes.size(), table.size() * sizeof table[0]));
-    } else if (id == BufferId::constraints) {
-      ConstraintRows<float> constraints = constraint_rows<float>(model_);
-      perturbation_.apply(constraints);
-      std::memcpy(bytes.data(), constraints.data(), bytes.size());
-    } else if (id == BufferId::collision) {
-      const shared::Collision collision = make_collision(model_);
-      std::memcpy(bytes.data(), &collision, sizeof collision);
-    } else if (const Use use = use_of(step, id); use.writes && !use.reads) {
-      fill_poison(bytes);
-    } else if (!input.words_of(id).empty()) {
-      std::memcpy(bytes.data(), input.words_of(id).data(), bytes.size());
-    } else if (!input[id].empty()) {
-      std::memcpy(bytes.data(), input[id].data(), bytes.size());
-    }
+    const auto put = [&](std::span<const std::byte> from) {
+      std::memcpy(bytes.data(), from.data(), std::min(bytes.size(), from.size()));
+    };
+    if (id == BufferId::params || id == BufferId::constraints || id == BufferId::collision)
+      put(block_bytes(id, model_, plan_, perturbation_));
+    else if (id == BufferId::substeps)
+      put(table_bytes(model_, plan_, rows, perturbation_));
+    else if (const Use use = use_of(step, id); use.writes && !use.reads)
+      fill_poison<T>(id, bytes);
+    else if (!input.words_of(id).empty())
+      put(std::as_bytes(std::span(input.words_of(id))));
+    else if (!input[id].empty() && !holds_floats(id))
+      put(std::as_bytes(std::span(input[id])));
   }
   return contents;
 }
 
-PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, std::span<const KickDrift> rows,
-                           std::uint32_t row_index) {
+template <class T>
+PassResult<T> PassRunner::run(std::size_t step, const HostBuffers<T>& input, std::span<const KickDrift> rows,
+                              std::uint32_t row_index) {
   const std::map<BufferId, Bytes> before = contents(step, input, rows);
   for (const auto& [id, bytes] : before)
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers_.at(id, slot).write(bytes);
@@ -93,7 +107,7 @@ PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, st
     recorder.end_label();
     recorder.finish();
   });
-  PassResult result;
+  PassResult<T> result;
   for (const auto& [id, bytes] : before) {
     const bool output = use_of(step, id).writes;
     if (output) result.outputs.push_back(id);
@@ -101,17 +115,15 @@ PassResult PassRunner::run(std::size_t step, const HostBuffers<float>& input, st
       Bytes after(bytes.size());
       buffers_.at(id, slot).read(after);
       if (!output && after != bytes) result.touched.push_back(id);
-      if (slot_count(id) > 1) continue;
-      if (holds_words(id)) {
-        result.buffers.words_of(id).resize(after.size() / sizeof(std::uint32_t));
-        std::memcpy(result.buffers.words_of(id).data(), after.data(), after.size());
-      } else if (row_of(id).element == "vec4") {
-        result.buffers[id].resize(after.size() / sizeof(glm::vec4));
-        std::memcpy(result.buffers[id].data(), after.data(), after.size());
-      }
+      if (slot_count(id) == 1) take(id, after, result.buffers);
     }
   }
   return result;
 }
+
+template PassResult<float> PassRunner::run(std::size_t, const HostBuffers<float>&, std::span<const KickDrift>,
+                                           std::uint32_t);
+template PassResult<double> PassRunner::run(std::size_t, const HostBuffers<double>&,
+                                            std::span<const KickDrift>, std::uint32_t);
 
 }  // namespace weft

@@ -1,21 +1,32 @@
 // Runs single steps of a plan on the device from given buffers, for checking a pass by itself.
 #pragma once
+#include <bit>
 #include <map>
 #include <vector>
 
 #include "passes/host_buffers.h"
+#include "sim/device_data.h"
 #include "sim/gpu_program.h"
 #include "sim/perturb.h"
 
 namespace weft {
 
-/// A quiet NaN that no computation yields, in every word that a pass is to write.
+/// What stands in everything that a pass is to write: a word, and quiet NaNs that no computation yields.
 inline constexpr std::uint32_t kPoison = 0x7fd15ea5u;
+inline constexpr std::uint64_t kPoison64 = 0x7ff95ea57fd15ea5u;
+template <class T>
+constexpr T poison() {
+  if constexpr (sizeof(T) == sizeof kPoison)
+    return std::bit_cast<T>(kPoison);
+  else
+    return std::bit_cast<T>(kPoison64);
+}
 
-/// What a single dispatch left behind.
+/// What a single dispatch left behind, of a plan that computes in T.
+template <class T>
 struct PassResult {
   std::vector<BufferId> outputs;  ///< what the pass writes, from its SPIR-V
-  HostBuffers<float> buffers;     ///< every buffer of the plan except the tables
+  HostBuffers<T> buffers;         ///< every buffer of the plan except the tables
   std::vector<BufferId> touched;  ///< buffers it should have left alone and did not
 };
 
@@ -23,9 +34,11 @@ class PassRunner {
  public:
   PassRunner(gpu::Device&, const Model&, const Plan&, const Perturbation&);
   /// Runs plan step `step` once on row `row_index` of `rows`. `input` gives what the pass reads; what it only
-  /// writes is filled with kPoison first, what it does not touch and `input` does not have with a pattern.
-  PassResult run(std::size_t step, const HostBuffers<float>& input, std::span<const KickDrift> rows,
-                 std::uint32_t row_index);
+  /// writes is filled with poison first, what it does not touch and `input` does not have with a pattern.
+  /// T is what the plan computes in.
+  template <class T>
+  PassResult<T> run(std::size_t step, const HostBuffers<T>& input, std::span<const KickDrift> rows,
+                    std::uint32_t row_index);
 
   struct Use {
     bool reads = false, writes = false;
@@ -34,8 +47,8 @@ class PassRunner {
   Use use_of(std::size_t step, BufferId id) const;
 
  private:
-  using Bytes = std::vector<std::byte>;
-  std::map<BufferId, Bytes> contents(std::size_t step, const HostBuffers<float>& input,
+  template <class T>
+  std::map<BufferId, Bytes> contents(std::size_t step, const HostBuffers<T>& input,
                                      std::span<const KickDrift> rows) const;
   gpu::Device& device_;
   const Model& model_;

@@ -6,7 +6,8 @@
 namespace weft {
 namespace {
 
-constexpr float kFactor = 1.01f;
+template <class T>
+constexpr T kFactor = T(1.01);
 
 std::string choices(const Plan& plan) {
   std::string text;
@@ -43,37 +44,47 @@ void Perturbation::apply(Plan& plan) const {
       if (step.pass->name == pass_ && constant.name == "pins") constant.value = 0;
 }
 
-void Perturbation::apply(const Model& model, shared::Params& params) const {
-  const float length_m = static_cast<float>(0.01 * model.grid.spacing_m);
-  if (constant_ == "shear") params.shear.x *= kFactor;
+template <class T>
+void Perturbation::apply(const Model& model, shared::ParamsOf<T>& params) const {
+  const T length_m = static_cast<T>(0.01 * model.grid.spacing_m);
+  if (constant_ == "shear") params.shear.x *= kFactor<T>;
   if (constant_ == "flex")
-    for (glm::vec4& row : params.flex) row.x *= kFactor;
+    for (glm::vec<4, T>& row : params.flex) row.x *= kFactor<T>;
   if (constant_ == "bending")  // rows of pairs that triples lean on
     for (std::size_t row = 0; row < 12; ++row)
-      if (row % 3 != 0) params.structural[row].x *= kFactor;
+      if (row % 3 != 0) params.structural[row].x *= kFactor<T>;
   if (constant_ == "damping") {
-    for (glm::vec4& row : params.structural) row.z *= kFactor;
-    for (glm::vec4& row : params.flex) row.z *= kFactor;
-    params.shear.z *= kFactor;
+    for (glm::vec<4, T>& row : params.structural) row.z *= kFactor<T>;
+    for (glm::vec<4, T>& row : params.flex) row.z *= kFactor<T>;
+    params.shear.z *= kFactor<T>;
   }
-  if (constant_ == "gravity") params.gravity_m_s2 *= kFactor;
+  if (constant_ == "gravity") params.gravity_m_s2 *= kFactor<T>;
   if (constant_ == "floor") params.floor_height_m += length_m;
 }
 
-void Perturbation::apply(ConstraintRows<float>& constraints) const {
+template <class T>
+void Perturbation::apply(ConstraintRows<T>& constraints) const {
   if (constant_ == "damping")
-    for (glm::vec4& row : constraints) row.z *= kFactor;
+    for (glm::vec<4, T>& row : constraints) row.z *= kFactor<T>;
 }
 
-void Perturbation::apply(std::span<glm::vec4> rows, std::uint32_t stride) const {
+template <class T>
+void Perturbation::apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride) const {
   for (std::size_t row = 0; row + stride <= rows.size(); row += stride) {
-    if (constant_ == "air") rows[row].w *= kFactor;
+    if (constant_ == "air") rows[row].w *= kFactor<T>;
     if (constant_ == "wind")
-      for (int axis = 0; axis < 3; ++axis) rows[row][axis] *= kFactor;
+      for (int axis = 0; axis < 3; ++axis) rows[row][axis] *= kFactor<T>;
     if (constant_ == "spheres")
       for (std::size_t sphere = shared::kRowHeadVec4s; sphere < stride; sphere += shared::kRowSphereVec4s)
-        rows[row + sphere].w *= kFactor;
+        rows[row + sphere].w *= kFactor<T>;
   }
 }
+
+template void Perturbation::apply(const Model&, shared::ParamsOf<float>&) const;
+template void Perturbation::apply(const Model&, shared::ParamsOf<double>&) const;
+template void Perturbation::apply(ConstraintRows<float>&) const;
+template void Perturbation::apply(ConstraintRows<double>&) const;
+template void Perturbation::apply(std::span<glm::vec<4, float>>, std::uint32_t) const;
+template void Perturbation::apply(std::span<glm::vec<4, double>>, std::uint32_t) const;
 
 }  // namespace weft

@@ -23,10 +23,13 @@ class Perturbation {
   Perturbation(const std::string& name, const Plan& plan);
   bool active() const { return !constant_.empty(); }
   void apply(Plan& plan) const;
-  void apply(const Model& model, shared::Params& params) const;
-  void apply(ConstraintRows<float>& constraints) const;
-  /// @param rows  one substep table, `stride` vec4s a row
-  void apply(std::span<glm::vec4> rows, std::uint32_t stride) const;
+  template <class T>
+  void apply(const Model& model, shared::ParamsOf<T>& params) const;
+  template <class T>
+  void apply(ConstraintRows<T>& constraints) const;
+  /// @param rows  one substep table, `stride` vectors a row
+  template <class T>
+  void apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride) const;
 
  private:
   std::string pass_, constant_;

@@ -2,9 +2,9 @@
 #include "sim/validate.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -32,14 +32,17 @@ struct Allowance {
 /// the
 ///               mean may be off by the largest error at each
 /// A division of 2.5 ulp and a root of 3 (Vulkan's limits) are some ten times the half ulp of the mirrors'.
-/// Where float is exact by luck, an ulp of the largest number remains.
+/// Where float is exact by luck, an ulp of the largest number remains. Double loses on the same work what
+/// float does, a rounding of 2^-53 for each of 2^-24.
+template <class T>
 Allowance allowance(const Difference& lost, std::size_t count, std::size_t held) {
-  constexpr double kMax = 16, kRms = 8, kUlp = std::numeric_limits<float>::epsilon();
-  const double n = static_cast<double>(count), ulp = kUlp * lost.magnitude;
+  constexpr double kUlp = std::numeric_limits<float>::epsilon();
+  constexpr double kScale = std::numeric_limits<T>::epsilon() / kUlp, kMax = 16 * kScale, kRms = 8 * kScale;
+  const double n = static_cast<double>(count), ulp = kScale * kUlp * lost.magnitude;
   const double at_pins = kMax * lost.max_abs * static_cast<double>(held) / n;
   return {.max_abs = kMax * lost.max_abs + ulp,
           .rms = kRms * lost.rms + ulp,
-          .bias = (kRms * lost.rms + ulp) / std::sqrt(n) + at_pins + lost.bias};
+          .bias = (kRms * lost.rms + ulp) / std::sqrt(n) + at_pins + kScale * lost.bias};
 }
 
 /// Fills in the verdict of a comparison from its difference; without an allowance it must be exact.
@@ -63,14 +66,39 @@ void judge(ValidationRow& row, const Difference& apart, const std::optional<Allo
     row.verdict = apart.max_ulp == 0 ? "exact" : "within tolerance";
 }
 
-HostBuffers<double> in_double(const HostBuffers<float>& host) {
-  HostBuffers<double> wide;
-  wide.words = host.words;
-  for (std::size_t b = 0; b < kBufferCount; ++b)
-    wide.vec4[b].assign(host.vec4[b].begin(), host.vec4[b].end());
-  return wide;
+template <class T, class From>
+HostBuffers<T> converted(const HostBuffers<From>& host) {
+  HostBuffers<T> to;
+  to.words = host.words;
+  for (std::size_t b = 0; b < kBufferCount; ++b) to.vec4[b].assign(host.vec4[b].begin(), host.vec4[b].end());
+  return to;
 }
 
+/// A step by the mirrors of both precisions, from the same floats: what float loses on it.
+class FloatLoss {
+ public:
+  template <class T>
+  FloatLoss(const PlanStep& step, const MirrorContext& context, const HostBuffers<T>& before)
+      : float_(converted<float>(before)), double_(converted<double>(float_)) {
+    step.pass->mirror_f32(context, float_);
+    step.pass->mirror_f64(context, double_);
+  }
+  Difference in(BufferId id) const { return difference(float_[id], double_[id]); }
+
+ private:
+  HostBuffers<float> float_;
+  HostBuffers<double> double_;
+};
+
+void run_mirror(const PlanStep& step, const MirrorContext& context, HostBuffers<float>& buffers) {
+  step.pass->mirror_f32(context, buffers);
+}
+void run_mirror(const PlanStep& step, const MirrorContext& context, HostBuffers<double>& buffers) {
+  step.pass->mirror_f64(context, buffers);
+}
+
+/// Of a plan that computes in T.
+template <class T>
 class Validator {
  public:
   Validator(gpu::Device& device, const Model& model, const Solver& solver, const ValidationOptions& options)
@@ -100,7 +128,7 @@ class Validator {
   struct Walk {  ///< through a frame
     const ProbeState& probe;
     std::vector<KickDrift> rows;
-    HostBuffers<float> host;
+    HostBuffers<T> host;
   };
   void check_frame(PassRunner& runner, const ProbeState& probe);
   void check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk);
@@ -114,10 +142,11 @@ class Validator {
   Plan plan_;
   ValidationReport report_;
   std::size_t held_ = 0;                                             ///< pinned particles
-  std::unique_ptr<Simulation> device_run_, float_run_, double_run_;  ///< in lockstep
+  std::unique_ptr<Simulation> device_run_, mirror_run_, other_run_;  ///< in lockstep; other: float or double
 };
 
-void Validator::check_passes(const Perturbation& perturbation) {
+template <class T>
+void Validator<T>::check_passes(const Perturbation& perturbation) {
   PassRunner runner(device_, model_, plan_, perturbation);
   for (const ProbeState& probe : probe_states(model_, solver_)) check_frame(runner, probe);
 }
@@ -125,12 +154,14 @@ void Validator::check_passes(const Perturbation& perturbation) {
 /// Whether the solver keeps more than positions and velocities from one substep to the next, so that the
 /// frame's first substep differs from the others.
 bool keeps_more(const Plan& plan) {
-  return std::ranges::any_of(plan.buffers, [](const PlanBuffer& b) { return b.id > BufferId::normal; });
+  return std::ranges::any_of(
+      plan.buffers, [](const PlanBuffer& b) { return b.id > BufferId::normal && !holds_floats(b.id); });
 }
 
 /// Walks through a frame whose state begins as the probe: its start, one substep or two, its end. The mirrors
 /// lead, so that each step is checked on what the ones before it leave.
-void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
+template <class T>
+void Validator<T>::check_frame(PassRunner& runner, const ProbeState& probe) {
   const std::uint32_t n = plan_.substeps, checked = std::min(n, keeps_more(plan_) ? 2u : 1u);
   Walk walk{.probe = probe,
             .rows = solver_.schedule(probe.state.time_s, model_.scene.solver.frame_s, n),
@@ -150,16 +181,22 @@ void Validator::check_frame(PassRunner& runner, const ProbeState& probe) {
   check_block(Block::frame_end, n);
 }
 
-bool is_poison(float value) { return std::bit_cast<std::uint32_t>(value) == kPoison; }
+template <class T>
+bool is_poison(T value) {
+  const T expected = poison<T>();  // by its bits: NaN is not equal to itself
+  return std::memcmp(&value, &expected, sizeof value) == 0;
+}
 
-void poison(HostBuffers<float>& host, BufferId id) {
+template <class T>
+void fill_poison(BufferId id, HostBuffers<T>& host) {
   std::ranges::fill(host.words_of(id), kPoison);
-  std::ranges::fill(host[id], glm::vec4(std::bit_cast<float>(kPoison)));
+  std::ranges::fill(host[id], glm::vec<4, T>(poison<T>()));
 }
 
 /// Where neither side wrote, the buffer holds what it held before, on both.
-void restore_unwritten(BufferId id, const HostBuffers<float>& before, HostBuffers<float>& got,
-                       HostBuffers<float>& expected) {
+template <class T>
+void restore_unwritten(BufferId id, const HostBuffers<T>& before, HostBuffers<T>& got,
+                       HostBuffers<T>& expected) {
   const auto& words = before.words_of(id);
   for (std::size_t k = 0; k < words.size(); ++k)
     if (got.words_of(id)[k] == kPoison && expected.words_of(id)[k] == kPoison)
@@ -183,25 +220,23 @@ void judge_words(ValidationRow& row, const std::vector<std::uint32_t>& got,
 
 /// Runs one step on the device and by its mirror, both from the walk's buffers; what the mirror leaves there
 /// is what the next step finds.
-void Validator::check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk) {
+template <class T>
+void Validator<T>::check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk) {
   const PlanStep& planned = plan_.steps[step];
   const ProbeState& probe = walk.probe;
-  HostBuffers<float>& host = walk.host;
+  HostBuffers<T>& host = walk.host;
   const std::uint32_t row_index = plan_.table_row(planned, substep);
-  const HostBuffers<float> before = host;
-  PassResult result = runner.run(step, host, walk.rows, row_index);
+  const HostBuffers<T> before = host;
+  PassResult<T> result = runner.run(step, host, walk.rows, row_index);
   const MirrorContext context{model_, planned.constants, walk.rows[row_index], row_index, planned.item};
-  HostBuffers<double> wide;
-  if (!report_.exact_required) {
-    wide = in_double(host);
-    planned.pass->mirror_f64(context, wide);
-  }
+  std::optional<FloatLoss> loss;
+  if (!report_.exact_required) loss.emplace(planned, context, host);
   for (const BufferId id : result.outputs)
-    if (!runner.use_of(step, id).reads) poison(host, id);
-  planned.pass->mirror_f32(context, host);
+    if (!runner.use_of(step, id).reads) fill_poison(id, host);
+  run_mirror(planned, context, host);
   if (planned.pass->settle_order) {
-    planned.pass->settle_order(model_, result.buffers);
-    planned.pass->settle_order(model_, host);
+    planned.pass->settle_order(result.buffers);
+    planned.pass->settle_order(host);
   }
 
   const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
@@ -214,7 +249,7 @@ void Validator::check_step(PassRunner& runner, std::size_t step, std::uint32_t s
       continue;
     }
     std::optional<Allowance> allowed;
-    if (!report_.exact_required) allowed = allowance(difference(host[id], wide[id]), host[id].size(), held_);
+    if (loss) allowed = allowance<T>(loss->in(id), host[id].size(), held_);
     judge(row, difference(result.buffers[id], host[id]), allowed);
     report_.rows.push_back(std::move(row));
   }
@@ -235,32 +270,39 @@ std::vector<glm::vec<4, T>> as_vec4(const std::vector<glm::dvec3>& vectors) {
   return out;
 }
 
-void Validator::compare_states(const std::string& name) {
-  const State got = device_run_->read(), expected = float_run_->read();
-  const State exact = double_run_ ? double_run_->read() : State{};
+template <class T>
+void Validator<T>::compare_states(const std::string& name) {
+  const State got = device_run_->read(), expected = mirror_run_->read();
+  const State other = other_run_ ? other_run_->read() : State{};
+  const State& in_float = plan_.in_double() ? other : expected;
+  const State& in_double = plan_.in_double() ? expected : other;
   const auto compare = [&](BufferId id, const auto member) {
     ValidationRow row{.check = "lockstep", .state = name, .buffer = std::string(row_of(id).name)};
-    const auto reference = as_vec4<float>(expected.*member);
+    const auto reference = as_vec4<T>(expected.*member);
     std::optional<Allowance> allowed;
-    if (double_run_) {
-      allowed = allowance(difference(reference, as_vec4<double>(exact.*member)), reference.size(), held_);
+    if (other_run_) {
+      const Difference lost =
+          difference(as_vec4<float>(in_float.*member), as_vec4<double>(in_double.*member));
+      allowed = allowance<T>(lost, reference.size(), held_);
       allowed->bias = allowed->max_abs;  // errors of many steps are no longer independent
     }
-    judge(row, difference(as_vec4<float>(got.*member), reference), allowed);
+    judge(row, difference(as_vec4<T>(got.*member), reference), allowed);
     report_.rows.push_back(std::move(row));
   };
   compare(BufferId::position, &State::position);
   compare(BufferId::velocity, &State::velocity);
 }
 
-void Validator::check_lockstep() {
+template <class T>
+void Validator<T>::check_lockstep() {
   device_run_ = GpuSimulation::create(device_, model_, solver_, {.perturb = options_.perturb});
-  float_run_ = make_cpu_simulation(model_, solver_, plan_.precision);
-  if (!report_.exact_required) double_run_ = make_cpu_simulation(model_, solver_, "f64");
+  mirror_run_ = make_cpu_simulation(model_, solver_, plan_.precision);
+  if (!report_.exact_required)
+    other_run_ = make_cpu_simulation(model_, solver_, plan_.in_double() ? "f32" : "f64");
   const std::uint32_t n = plan_.substeps;
   const double frame_s = model_.scene.solver.frame_s;
   const auto advance = [&](std::uint32_t substeps) {
-    for (Simulation* simulation : {device_run_.get(), float_run_.get(), double_run_.get()})
+    for (Simulation* simulation : {device_run_.get(), mirror_run_.get(), other_run_.get()})
       if (simulation != nullptr) simulation->advance(frame_s * substeps / n, substeps);
   };
   for (std::uint32_t left = options_.lockstep_substeps; left > 0;) {
@@ -281,7 +323,8 @@ bool ValidationReport::ok() const {
 
 ValidationReport validate(gpu::Device& device, const Model& model, const Solver& solver,
                           const ValidationOptions& options) {
-  return Validator(device, model, solver, options).run();
+  if (model.scene.solver.precision == "f64") return Validator<double>(device, model, solver, options).run();
+  return Validator<float>(device, model, solver, options).run();
 }
 
 }  // namespace weft

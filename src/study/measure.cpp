@@ -216,7 +216,7 @@ std::string unavailable(const Bench& bench, const Solver& solver, std::string_vi
   if (precision == "f32k" && !has_compensated(solver)) return "has no form with compensated positions";
   if (bench.device == nullptr) return "";
   if (!solver.on_gpu) return "runs on the CPU reference only";
-  return precision == "f64" ? "a Vulkan device computes in single precision" : "";
+  return precision == "f64" && !bench.device->info().float64 ? "the device has no float64" : "";
 }
 
 Point measure(const Bench& bench, const Model& model, const Setting& setting, const Reference& reference,

@@ -68,6 +68,30 @@ TEST(Device, StagingAndRunTimeShadersEndInTheSameBits) {
   EXPECT_EQ(plain, hash({"--validation"}));
 }
 
+// In double, what the device computes and what is drawn of it; software devices end in the reference's bits.
+TEST(Device, ComputesInDouble) {
+  NEEDS_VULKAN();
+  const Json device = Json::parse(weft({"devices", "--format", "json"}).out)[0];
+  if (!device["float64"].get<bool>()) GTEST_SKIP() << "no float64";
+  const auto summary = [](const Arguments& more) {
+    Arguments all =
+        on_device("simulate", {"--precision", "f64", "--solver", "rk4", "--time", "0.1", "--format", "json"});
+    all.insert(all.end(), more.begin(), more.end());
+    return Json::parse(weft(all).out);
+  };
+  const Json on_gpu = summary({}), from_sources = summary({"--shaders", WEFT_SOURCE_DIR "/shaders"});
+  EXPECT_EQ(on_gpu["precision"], "f64");
+  EXPECT_EQ(on_gpu["hash"], from_sources["hash"]);
+  if (device["software"].get<bool>()) {
+    EXPECT_EQ(on_gpu["hash"], summary({"--device", "cpu"})["hash"]);
+  }
+  EXPECT_CODE(weft(on_device("validate", {"--precision", "f64"})), 0);
+  EXPECT_CODE(weft(on_device("simulate", {"--precision", "f64", "--kernel", "strip", "--time", "0.1"})), 2);
+  const Json timed =
+      Json::parse(weft(on_device("bench", {"--precision", "f64", "--format", "json", "-q"})).out);
+  EXPECT_EQ(timed["context"]["precision"], "f64");
+}
+
 TEST(Device, ABrokenShaderIsExitTwoWithItsLine) {
   NEEDS_VULKAN();
   const Scratch scratch;

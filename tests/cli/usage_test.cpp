@@ -13,8 +13,9 @@ const Arguments kCommands = {"view",  "render",  "simulate", "plan",      "valid
                              "bench", "devices", "scenes",   "materials", "solvers"};
 
 /// A refused command line says every part, on stderr alone.
-void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts, int code = 2) {
-  const Result result = weft(arguments);
+void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts, int code = 2,
+                    const Environment& changes = {}) {
+  const Result result = weft(arguments, changes);
   EXPECT_CODE(result, code);
   EXPECT_EQ(result.out, "");
   EXPECT_EQ(result.err.rfind("weft: ", 0), 0u) << result.err;
@@ -176,8 +177,12 @@ TEST(Usage, AnUnknownDeviceIsExitThreeAndNamesThoseThereAre) {
   expect_refused({"simulate", "1", "--device", "native"}, {"--device cpu"}, 3);
 }
 
-TEST(Usage, DoublePrecisionOnAVulkanDeviceSaysToUseTheCpu) {
-  expect_refused({"simulate", "1", "--precision", "f64"}, {"f64", "--device cpu"});
+// The switch lets every device lack float64, so that none can be named.
+TEST(Usage, DoubleOnADeviceWithoutItIsExitThreeAndSaysWhichDevicesHaveIt) {
+  NEEDS_VULKAN();
+  for (const char* command : {"simulate", "bench", "validate"})
+    expect_refused({command, "1", "--resolution", "8", "--precision", "f64", "-q"},
+                   {"f64", "no device here has it", "--device cpu"}, 3, {{"WEFT_WITHOUT_FLOAT64", "1"}});
 }
 
 }  // namespace

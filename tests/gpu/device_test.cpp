@@ -74,6 +74,22 @@ TEST_F(Devices, AnUnknownChoiceNamesWhatIsThere) {
   }
 }
 
+// Issue: "f64 on a device without it ... says which devices have it"; one that cannot run at all is none.
+TEST(Float64, IsMissedByNamingTheDevicesThatHaveIt) {
+  const DeviceInfo without{.name = "Plain"};
+  const DeviceInfo unusable{.name = "Old", .float64 = true, .unusable = "no Vulkan 1.3"};
+  const DeviceInfo first{.name = "Wide", .float64 = true}, second{.name = "Soft", .float64 = true};
+  EXPECT_EQ(no_float64(without, std::vector{first, without, unusable, second}),
+            "Plain has no float64; these have it: Wide, Soft");
+  EXPECT_EQ(no_float64(without, std::vector{without, unusable}),
+            "Plain has no float64; no device here has it");
+}
+
+TEST_F(Devices, AreWithoutFloat64WhereTheSwitchSaysSo) {
+  const test::ScopedEnvironment without("WEFT_WITHOUT_FLOAT64", "1");
+  for (const DeviceInfo& info : list_devices()) EXPECT_FALSE(info.float64) << info.name;
+}
+
 TEST_F(Devices, AMissingExtensionIsNamed) {
   DeviceOptions options;
   options.device_extensions = {"VK_KHR_no_such_extension"};

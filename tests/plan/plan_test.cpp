@@ -154,6 +154,29 @@ TEST(Plan, has_a_solvers_own_buffers_only_with_that_solver) {
   }
 }
 
+/// Double costs twice the bytes of what it computes, one pass and two buffers of floats to draw from; and the
+/// other precisions have none of it.
+TEST(Plan, has_what_is_drawn_in_float_only_in_double) {
+  const Model model = model_of("[cloth]\nresolution = 8\n[gravity]\n[solver]\nsubsteps = 50\n");
+  const std::uint64_t particles = model.grid.count();
+  const auto presents = [](const Plan& plan) {
+    return std::ranges::count(plan.steps, &present, &PlanStep::pass);
+  };
+  for (const Solver* solver : solvers()) {
+    const Plan in_float = compile_plan(model, *solver, "f32"),
+               in_double = compile_plan(model, *solver, "f64");
+    EXPECT_EQ(presents(in_float), 0) << solver->name;
+    EXPECT_EQ(bytes_of(in_float, BufferId::draw_position), 0u) << solver->name;
+    EXPECT_EQ(presents(in_double), 1) << solver->name;
+    EXPECT_EQ(in_double.dispatches(), in_float.dispatches() + 1) << solver->name;
+    const std::uint64_t params = bytes_of(in_float, BufferId::params),
+                        params_in_double = 2 * sizeof(shared::ParamsOf<double>);
+    EXPECT_EQ(in_double.bytes(), 2 * (in_float.bytes() - params) + params_in_double + 2 * 16 * particles)
+        << solver->name;
+  }
+  EXPECT_EQ(presents(compile_plan(model, find_solver("leapfrog"), "f32k")), 0);
+}
+
 // Twelve colours of springs and six of bending triples, between a prediction and the velocities; a kind of
 // spring that the material does not have is not in the plan.
 TEST(Plan, of_xpbd_has_a_step_for_each_colour_there_is) {

@@ -165,17 +165,26 @@ TEST_F(RendererTest, FrontAndBackHaveDifferentTints) {
   EXPECT_GT(greenness(0.3 + 3.14), 0.6);  // sand behind
 }
 
+// f64 draws from buffers of its own, in float; after a frame and after a write alike.
 TEST_F(RendererTest, DeviceBuffersAndHostStateGiveTheSamePicture) {
   Scene scene = sheet_scene();
   scene.cloth.imperfection_m = 0.01;
-  const Model model = build_model(scene);
-  const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
-  for (int frame = 0; frame < 6; ++frame) simulation->advance(1.0 / 60.0, simulation->plan().substeps);
-  OffscreenRenderer renderer(device(), model, small_picture());
-  const Picture direct = renderer.draw(simulation->draw_buffers(), simulation->time_s());
-  const Picture uploaded = renderer.draw(simulation->read());
-  // Normals differ in the last bits only: less than one step of colour on average.
-  EXPECT_LT(difference(direct, uploaded).mean, 0.05);
+  for (const char* precision : {"f32", "f64"}) {
+    scene.solver.precision = precision;
+    if (scene.solver.precision == "f64" && !device().info().float64) continue;
+    const Model model = build_model(scene);
+    const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
+    OffscreenRenderer renderer(device(), model, small_picture());
+    const auto expect_same_picture = [&] {
+      const Picture direct = renderer.draw(simulation->draw_buffers(), simulation->time_s());
+      // Normals differ in the last bits only: less than one step of colour on average.
+      EXPECT_LT(difference(direct, renderer.draw(simulation->read())).mean, 0.05) << precision;
+    };
+    for (int frame = 0; frame < 6; ++frame) simulation->advance(1.0 / 60.0, simulation->plan().substeps);
+    expect_same_picture();
+    simulation->write(waved(model));
+    expect_same_picture();
+  }
 }
 
 TEST_F(RendererTest, SamePictureTwiceToTheBit) {

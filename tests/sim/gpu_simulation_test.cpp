@@ -120,22 +120,14 @@ TEST_F(GpuSimulationTest, records_the_dispatches_and_allocates_the_bytes_of_its_
   }
 }
 
-// buffers_of() restates what the shaders declare; the SPIR-V decides.
-TEST_F(GpuSimulationTest, plans_the_buffers_that_the_shaders_bind) {
+// Which buffers each of them binds: solver_validate_test.cpp.
+TEST_F(GpuSimulationTest, has_a_pipeline_for_each_pass_and_not_for_each_step) {
   const Model model = full_model();
   const Plan plan = compile_plan(model, find_solver("leapfrog"));
   const GpuBuffers buffers(device(), model, plan);
   const GpuProgram program(device(), plan, buffers);
-  for (std::size_t step = 0; step < plan.steps.size(); ++step) {
-    std::vector<BufferId> bound;
-    for (const gpu::Binding& binding : program.pipeline(step).reflection().bindings) {
-      bound.push_back(BufferId{binding.binding});
-      EXPECT_EQ(binding.stride == 0 || binding.stride == row_of(bound.back()).element_bytes, true);
-    }
-    const auto planned = buffers_of(*plan.steps[step].pass);
-    EXPECT_TRUE(std::ranges::equal(bound, planned)) << plan.steps[step].pass->name;
+  for (std::size_t step = 0; step < plan.steps.size(); ++step)
     EXPECT_EQ(program.flips(step), plan.steps[step].pass->swaps_state);
-  }
   EXPECT_EQ(program.pipeline_count(), 2u);  // the closing kick shares the substep's pipeline
 }
 

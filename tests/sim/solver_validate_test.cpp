@@ -72,22 +72,30 @@ flex = 0.0
   }
 }
 
-// buffers_of() restates what the shaders declare; the SPIR-V decides.
+// buffers_of() restates what the shaders declare; the SPIR-V decides. A module of another precision than the
+// plan's would have elements of another size.
 TEST_F(SolverValidateTest, every_shader_binds_what_the_plan_says) {
-  const Model model = full_model();
-  for (const Solver* solver : solvers()) {
-    if (!solver->on_gpu) continue;
-    const Plan plan = compile_plan(model, *solver);
-    const GpuBuffers buffers(device(), model, plan);
-    const GpuProgram program(device(), plan, buffers);
-    for (std::size_t step = 0; step < plan.steps.size(); ++step) {
-      std::vector<BufferId> bound;
-      for (const gpu::Binding& binding : program.pipeline(step).reflection().bindings)
-        bound.push_back(BufferId{binding.binding});
-      const auto planned = buffers_of(*plan.steps[step].pass);
-      EXPECT_TRUE(std::ranges::equal(bound, planned)) << plan.steps[step].pass->name;
+  const Model model = full_model("[self_collision]\nthickness = 0.02\n"), bare = full_model();
+  for (const Solver* solver : solvers())
+    for (const char* precision : {"f32", "f64"}) {
+      const bool in_double = precision == std::string("f64");
+      if (!solver->on_gpu || (in_double && !device().info().float64)) continue;
+      const Model& shown = solver->name == "leapfrog" ? model : bare;
+      const Plan plan = compile_plan(shown, *solver, precision);
+      const GpuBuffers buffers(device(), shown, plan);
+      const GpuProgram program(device(), plan, buffers);
+      for (std::size_t step = 0; step < plan.steps.size(); ++step) {
+        std::vector<BufferId> bound;
+        for (const gpu::Binding& binding : program.pipeline(step).reflection().bindings) {
+          const BufferRow& row = row_of(bound.emplace_back(BufferId{binding.binding}));
+          const std::uint32_t bytes = in_double ? row.element_bytes_double : row.element_bytes;
+          EXPECT_EQ(binding.stride, row.id == BufferId::params ? 0 : bytes)  // one block, no array
+              << plan.steps[step].pass->name << ": " << row.name;
+        }
+        const auto planned = buffers_of(*plan.steps[step].pass);
+        EXPECT_TRUE(std::ranges::equal(bound, planned)) << plan.steps[step].pass->name;
+      }
     }
-  }
 }
 
 }  // namespace

@@ -1,0 +1,117 @@
+// What the host computes for a plan's buffers and reads back from them, in the plan's precision.
+#include "sim/device_data.h"
+
+#include <cstring>
+
+#include "core/error.h"
+#include "passes/collision.h"
+#include "passes/tables.h"
+#include "passes/xpbd.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+Bytes bytes_of(std::span<const T> values) {
+  const auto bytes = std::as_bytes(values);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::vector<BufferId> state_buffers(const GpuBuffers& buffers) {
+  std::vector<BufferId> ids{BufferId::position, BufferId::velocity};
+  if (buffers.has(BufferId::compensation)) ids.push_back(BufferId::compensation);
+  return ids;
+}
+
+template <class T>
+HostBuffers<T> sized_for_state(const GpuBuffers& buffers, const Model& model, const Plan& plan) {
+  HostBuffers<T> host;
+  for (const BufferId id : state_buffers(buffers))
+    host[id].resize(element_count(id, model, plan.row_count()));
+  return host;
+}
+
+}  // namespace
+
+Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Perturbation& perturbation) {
+  return in_precision(plan, [&]<class T>(T) -> Bytes {
+    if (id == BufferId::collision) {
+      const auto collision = make_collision<T>(model);
+      return bytes_of(std::span(&collision, 1));
+    }
+    if (id == BufferId::constraints) {
+      ConstraintRows<T> constraints = constraint_rows<T>(model);
+      perturbation.apply(constraints);
+      return bytes_of(std::span<const glm::vec<4, T>>(constraints));
+    }
+    WEFT_ASSERT(id == BufferId::params);
+    auto params = make_params<T>(model);
+    perturbation.apply(model, params);
+    return bytes_of(std::span<const shared::ParamsOf<T>>(&params, 1));
+  });
+}
+
+Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrift> rows,
+                  const Perturbation& perturbation) {
+  return in_precision(plan, [&]<class T>(T) {
+    std::vector<glm::vec<4, T>> table;
+    fill_substep_rows(model, rows, table);
+    perturbation.apply(std::span(table), substep_row_stride(model));
+    return bytes_of(std::span<const glm::vec<4, T>>(table));
+  });
+}
+
+void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
+                  const Perturbation& perturbation) {
+  for (const BufferId id : {BufferId::params, BufferId::constraints, BufferId::collision}) {
+    if (!buffers.has(id)) continue;
+    const Bytes bytes = block_bytes(id, model, plan, perturbation);
+    for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);
+  }
+}
+
+void write_state(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
+                 const State& state) {
+  in_precision(plan, [&]<class T>(T) {
+    auto host = sized_for_state<T>(buffers, model, plan);
+    load_state(model, state, host);
+    for (const BufferId id : state_buffers(buffers))
+      buffers.at(at_parity(id, parity)).write(std::as_bytes(std::span(host[id])));
+  });
+}
+
+State read_state(const GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
+                 double time_s) {
+  return in_precision(plan, [&]<class T>(T) {
+    auto host = sized_for_state<T>(buffers, model, plan);
+    for (const BufferId id : state_buffers(buffers))
+      buffers.at(at_parity(id, parity)).read(std::as_writable_bytes(std::span(host[id])));
+    return store_state(host, time_s);
+  });
+}
+
+void write_placed(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
+                  std::span<const PlacedParticle> particles) {
+  for (const PlacedParticle& placed : particles)
+    if (model.relative_inverse_mass.at(placed.particle) != 0.0)
+      throw error(Exit::internal, "particle {} is to be placed but is not pinned", placed.particle);
+  in_precision(plan, [&]<class T>(T) {
+    using Element = glm::vec<4, T>;
+    for (std::size_t first = 0; first < particles.size();) {
+      std::vector<Element> positions, velocities;
+      std::size_t next = first;
+      while (next < particles.size() &&
+             particles[next].particle == particles[first].particle + (next - first)) {
+        positions.emplace_back(glm::vec<3, T>(particles[next].position_m), T(0));
+        velocities.emplace_back(glm::vec<3, T>(particles[next].velocity_m_s), T(0));
+        ++next;
+      }
+      const VkDeviceSize offset = particles[first].particle * sizeof(Element);
+      buffers.at(at_parity(BufferId::position, parity)).write(std::as_bytes(std::span(positions)), offset);
+      buffers.at(at_parity(BufferId::velocity, parity)).write(std::as_bytes(std::span(velocities)), offset);
+      first = next;
+    }
+  });
+}
+
+}  // namespace weft

@@ -1,0 +1,41 @@
+// What the host computes for a plan's buffers on a device and reads back from them, in the plan's precision.
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/gpu_program.h"
+#include "sim/gpu_simulation.h"
+#include "sim/perturb.h"
+
+namespace weft {
+
+using Bytes = std::vector<std::byte>;
+
+/// work(0.0f), or work(0.0) where the plan computes in double.
+template <class Work>
+auto in_precision(const Plan& plan, Work&& work) {
+  return plan.in_double() ? work(0.0) : work(0.0f);
+}
+
+/// A block that follows from the model alone.
+/// @param id  params, constraints or collision
+Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = {});
+
+/// The substep table with these rows.
+Bytes table_bytes(const Model&, const Plan&, std::span<const KickDrift> rows, const Perturbation& = {});
+
+/// Fills every copy of the blocks that the plan has.
+void write_blocks(GpuBuffers&, const Model&, const Plan&, const Perturbation& = {});
+
+/// Writes the canonical state: position, velocity and, in f32k, what rounding leaves over.
+void write_state(GpuBuffers&, Parity, const Model&, const Plan&, const State&);
+
+/// @param time_s  that the state is to have
+State read_state(const GpuBuffers&, Parity, const Model&, const Plan&, double time_s);
+
+/// Puts pinned particles where they are to be; a run of consecutive indices is one write.
+/// @throws Error(Exit::internal) when one of them is not pinned
+void write_placed(GpuBuffers&, Parity, const Model&, const Plan&, std::span<const PlacedParticle>);
+
+}  // namespace weft
