@@ -31,11 +31,12 @@ Table table_of(const BenchReport& report) {
 
 std::string describe(const BenchReport& report, const std::string& device) {
   return fmt::format(
-      "{} · {} · {} · {} repetitions\ncopy: {:.3g} ± {:.2g} GB/s by command, {:.3g} ± {:.2g} GB/s "
+      "{} · {} · {} {} · {} repetitions\ncopy: {:.3g} ± {:.2g} GB/s by command, {:.3g} ± {:.2g} GB/s "
       "by shader, {} MiB buffers\n{}",
-      report.scene, device, report.solver, report.repetitions, report.copy.command_gb_s.median,
-      report.copy.command_gb_s.spread, report.copy.shader_gb_s.median, report.copy.shader_gb_s.spread,
-      report.copy.buffer_bytes >> 20, to_text(table_of(report), Format::human));
+      report.scene, device, report.solver, report.precision, report.repetitions,
+      report.copy.command_gb_s.median, report.copy.command_gb_s.spread, report.copy.shader_gb_s.median,
+      report.copy.shader_gb_s.spread, report.copy.buffer_bytes >> 20,
+      to_text(table_of(report), Format::human));
 }
 
 /// One document: the first report's context, every report's benchmarks.

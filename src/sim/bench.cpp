@@ -10,7 +10,7 @@
 #include "gpu/commands.h"
 #include "gpu/shader.h"
 #include "passes/passes.h"
-#include "passes/tables.h"
+#include "sim/device_data.h"
 #include "sim/gpu_program.h"
 #include "sim/kernel_choice.h"
 
@@ -30,6 +30,11 @@ Sample sample_of(std::vector<double> values) {
     return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
   };
   return {at(0.5), (at(0.75) - at(0.25)) / 2};
+}
+
+Plan planned(const Model& model) {
+  const SolverSection& wanted = model.scene.solver;
+  return compile_plan(model, find_solver(wanted.name), wanted.precision);
 }
 
 /// Commands recorded once and timed by the device.
@@ -111,7 +116,7 @@ class SizeBench {
   SizeBench(gpu::Device& device, const Scene& scene, const BenchOptions& options, const std::string& kernel)
       : device_(device),
         model_(build_model(scene)),
-        plan_(compile_plan(model_, find_solver(scene.solver.name))),
+        plan_(planned(model_)),
         choice_(choose_kernel(device, model_, plan_, nullptr, kernel)),
         buffers_(device, model_, plan_, choice_.kernel),
         program_(device, plan_, buffers_, nullptr, choice_.kernel) {
@@ -152,15 +157,10 @@ class SizeBench {
   };
   /// The start state and the rows of the first frame.
   void fill() {
-    HostBuffers<float> host;
-    load_state(model_, start_state(model_), host);
-    const shared::Params params = make_params(model_);
-    std::vector<shared::vec4> table;
-    fill_substep_rows(model_, plan_.solver->schedule(0, model_.scene.solver.frame_s, plan_.substeps), table);
-    buffers_.at(BufferId::params).write(std::as_bytes(std::span(&params, 1)));
-    buffers_.at(BufferId::substeps).write(std::as_bytes(std::span(table)));
-    for (const BufferId id : {BufferId::position, BufferId::velocity})
-      buffers_.at(id).write(std::as_bytes(std::span(host[id])));
+    const auto rows = plan_.solver->schedule(0, model_.scene.solver.frame_s, plan_.substeps);
+    write_blocks(buffers_, model_, plan_);
+    buffers_.at(BufferId::substeps).write(table_bytes(model_, plan_, rows));
+    write_state(buffers_, 0, model_, plan_, start_state(model_));
   }
   /// An even number of dispatches, so that the state ends where it began and the commands can run again.
   std::function<void(VkCommandBuffer)> recording(std::size_t step, std::uint32_t dispatches) {
@@ -207,7 +207,7 @@ BenchRow SizeBench::result(double copy_gb_s) const {
     row.ns_per_particle_substep.spread += ms.spread * ns;
   }
   row.particle_substeps_per_s = 1e9 / row.ns_per_particle_substep.median;
-  row.gb_s = kBytesPerParticleSubstep / row.ns_per_particle_substep.median;
+  row.gb_s = bytes_per_particle_substep(plan_) / row.ns_per_particle_substep.median;
   row.copy_share = row.gb_s / copy_gb_s;
   return row;
 }
@@ -230,14 +230,14 @@ std::vector<Scene> variants(const Scene& scene, const BenchOptions& options) {
 std::vector<std::string> kernels_for(const gpu::Device& device, const Scene& scene,
                                      const BenchOptions& options) {
   if (options.kernel != "all") return {options.kernel};
-  const Plan plan = compile_plan(build_model(scene), find_solver(scene.solver.name));
+  const Plan plan = planned(build_model(scene));
   return fitting_kernel_names(device, plan);
 }
 
 bool fits(gpu::Device& device, const Scene& scene) {
   const Model model = build_model(scene);
   try {
-    require_fits(device, model, compile_plan(model, find_solver(scene.solver.name)));
+    require_fits(device, model, planned(model));
   } catch (const Error& refusal) {
     if (refusal.code() == Exit::no_device) return false;
     throw;
@@ -246,6 +246,11 @@ bool fits(gpu::Device& device, const Scene& scene) {
 }
 
 }  // namespace
+
+double bytes_per_particle_substep(const Plan& plan) {
+  const BufferRow& row = row_of(BufferId::position);
+  return 4.0 * (plan.in_double() ? row.element_bytes_double : row.element_bytes);
+}
 
 double CopyBandwidth::best_gb_s() const { return std::max(command_gb_s.median, shader_gb_s.median); }
 
@@ -256,10 +261,13 @@ std::string CopyBandwidth::best() const {
 BenchReport bench(gpu::Device& device, const Scene& scene, const BenchOptions& options) {
   if (!device.info().timestamps)
     throw error(Exit::no_device, "{} has no timestamps; bench needs them", device.info().name);
+  const Model first = build_model(scene);
+  require_precision(device, first, planned(first));
   BenchReport report{.device = device.info().name,
                      .driver = device.info().driver,
                      .scene = scene.title,
                      .solver = scene.solver.name,
+                     .precision = scene.solver.precision,
                      .repetitions = options.repetitions};
   CopyBench copy(device);
   std::vector<std::unique_ptr<SizeBench>> sizes;

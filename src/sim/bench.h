@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/device.h"
+#include "plan/plan.h"
 #include "scene/scene.h"
 
 namespace weft {
@@ -43,21 +44,21 @@ struct BenchRow {
   std::uint32_t dispatches = 0;  ///< of `integrate` in a repetition
   Sample ns_per_particle_substep;
   double particle_substeps_per_s = 0;
-  double gb_s = 0;          ///< counting 64 bytes a particle·substep
+  double gb_s = 0;          ///< counting bytes_per_particle_substep()
   double copy_share = 0;    ///< gb_s over the copy bandwidth of the same run
   std::uint64_t bytes = 0;  ///< of all buffers
   std::vector<BenchPass> passes;
 };
 
 struct BenchReport {
-  std::string device, driver, scene, solver;
+  std::string device, driver, scene, solver, precision;
   std::uint32_t repetitions = 0;
   CopyBandwidth copy;
   std::vector<BenchRow> rows;
 };
 
 /// Bytes a particle·substep must move at least: position and velocity, read and written once.
-inline constexpr double kBytesPerParticleSubstep = 64;
+double bytes_per_particle_substep(const Plan&);
 
 /// Times the scene's plan at each resolution, with and without damping; copies and kernels take turns, so
 /// that their ratio belongs to one state of the machine. Sizes that do not fit the device are left out.

@@ -42,6 +42,7 @@ std::string to_benchmark_json(const BenchReport& report) {
                      {"driver", report.driver},
                      {"scene", report.scene},
                      {"solver", report.solver},
+                     {"precision", report.precision},
                      {"copy_gb_per_s", report.copy.best_gb_s()},
                      {"copy_best", report.copy.best()},
                      {"copy_command_gb_per_s", report.copy.command_gb_s.median},
