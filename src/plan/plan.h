@@ -53,7 +53,7 @@ struct Plan {
   }
 };
 
-/// Whether the solver runs in f32k: a pass of it has a form with compensated positions.
+/// Whether the solver runs in f32k: a pass of its substep has a form with compensated positions.
 bool has_compensated(const Solver& solver);
 
 /// @param precision  "f32", "f32k" or "f64"; f32k takes each pass's compensated form
