@@ -17,5 +17,5 @@ void main() {
   uint j = uint(gl_VertexIndex) / view.nx, i = uint(gl_VertexIndex) - j * view.nx;
   flat_m = vec2(i, j) * view.spacing_m;
   strain = 0.0;
-  gl_Position = view.clip * vec4(position.xyz, 1.0);
+  gl_Position = cloth_in_clip(position.xyz, j);
 }

@@ -29,5 +29,5 @@ void main() {
   consider(own + 1u, i + 1u < view.nx);
   consider(own - view.nx, j > 0u);
   consider(own + view.nx, j + 1u < view.ny);
-  gl_Position = view.clip * vec4(position.xyz, 1.0);
+  gl_Position = cloth_in_clip(position.xyz, j);
 }
