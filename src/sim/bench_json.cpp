@@ -11,21 +11,21 @@
 namespace weft {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using BenchJson = nlohmann::ordered_json;
 
-void add(Json& list, const std::string& name, const std::string& aggregate, std::uint32_t repetitions,
-         double ns, const Json& counters) {
-  Json entry = {{"name", name + "_" + aggregate},
-                {"run_name", name},
-                {"run_type", "aggregate"},
-                {"repetitions", repetitions},
-                {"threads", 1},
-                {"aggregate_name", aggregate},
-                {"aggregate_unit", "time"},
-                {"iterations", repetitions},
-                {"real_time", ns},
-                {"cpu_time", ns},
-                {"time_unit", "ns"}};
+void add(BenchJson& list, const std::string& name, const std::string& aggregate, std::uint32_t repetitions,
+         double ns, const BenchJson& counters) {
+  BenchJson entry = {{"name", name + "_" + aggregate},
+                     {"run_name", name},
+                     {"run_type", "aggregate"},
+                     {"repetitions", repetitions},
+                     {"threads", 1},
+                     {"aggregate_name", aggregate},
+                     {"aggregate_unit", "time"},
+                     {"iterations", repetitions},
+                     {"real_time", ns},
+                     {"cpu_time", ns},
+                     {"time_unit", "ns"}};
   entry.update(counters);
   list.push_back(std::move(entry));
 }
@@ -33,7 +33,7 @@ void add(Json& list, const std::string& name, const std::string& aggregate, std:
 }  // namespace
 
 std::string to_benchmark_json(const BenchReport& report) {
-  Json json;
+  BenchJson json;
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   json["context"] = {{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))},
                      {"executable", "weft bench"},
@@ -48,12 +48,12 @@ std::string to_benchmark_json(const BenchReport& report) {
                      {"copy_command_gb_per_s", report.copy.command_gb_s.median},
                      {"copy_shader_gb_per_s", report.copy.shader_gb_s.median},
                      {"copy_buffer_bytes", report.copy.buffer_bytes}};
-  json["benchmarks"] = Json::array();
+  json["benchmarks"] = BenchJson::array();
   for (const BenchRow& row : report.rows)
     for (const BenchPass& pass : row.passes) {
       const std::string name =
           fmt::format("{}/{}x{}/{}", pass.pass, row.nx, row.ny, row.damping ? "damped" : "undamped");
-      Json counters = {{"ms_spread", pass.ms.spread}, {"bytes", row.bytes}, {"kernel", row.kernel}};
+      BenchJson counters = {{"ms_spread", pass.ms.spread}, {"bytes", row.bytes}, {"kernel", row.kernel}};
       if (pass.pass == row.passes[0].pass) {
         counters["ns_per_particle_substep"] = row.ns_per_particle_substep.median;
         counters["items_per_second"] = row.particle_substeps_per_s;
@@ -62,7 +62,8 @@ std::string to_benchmark_json(const BenchReport& report) {
         counters["substeps"] = row.substeps;
       }
       add(json["benchmarks"], name, "median", report.repetitions, pass.ms.median * 1e6, counters);
-      add(json["benchmarks"], name, "half_iqr", report.repetitions, pass.ms.spread * 1e6, Json::object());
+      add(json["benchmarks"], name, "half_iqr", report.repetitions, pass.ms.spread * 1e6,
+          BenchJson::object());
     }
   return json.dump(2);
 }

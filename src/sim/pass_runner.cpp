@@ -21,15 +21,15 @@ void fill_pattern(std::span<std::byte> bytes) {
 }
 
 template <class T>
-void fill(std::span<std::byte> bytes, T value) {
+void fill_bytes(std::span<std::byte> bytes, T value) {
   for (std::size_t at = 0; at + sizeof value <= bytes.size(); at += sizeof value)
     std::memcpy(bytes.data() + at, &value, sizeof value);
 }
 
 template <class T>
 void fill_poison(BufferId id, std::span<std::byte> bytes) {
-  if (holds_words(id) || holds_floats(id)) return fill(bytes, kPoison);
-  fill(bytes, poison<T>());
+  if (holds_words(id) || holds_floats(id)) return fill_bytes(bytes, kPoison);
+  fill_bytes(bytes, poison<T>());
 }
 
 /// Of a device's buffer of type E.
@@ -41,7 +41,7 @@ std::vector<T> elements_in(std::span<const std::byte> bytes) {
 }
 
 template <class T>
-void take(BufferId id, std::span<const std::byte> bytes, HostBuffers<T>& buffers) {
+void take_output(BufferId id, std::span<const std::byte> bytes, HostBuffers<T>& buffers) {
   using Vector = glm::vec<4, T>;
   if (holds_words(id))
     buffers.words_of(id) = elements_in<std::uint32_t, std::uint32_t>(bytes);
@@ -115,7 +115,7 @@ PassResult<T> PassRunner::run(std::size_t step, const HostBuffers<T>& input, std
       Bytes after(bytes.size());
       buffers_.at(id, slot).read(after);
       if (!output && after != bytes) result.touched.push_back(id);
-      if (slot_count(id) == 1) take(id, after, result.buffers);
+      if (slot_count(id) == 1) take_output(id, after, result.buffers);
     }
   }
   return result;

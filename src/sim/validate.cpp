@@ -188,7 +188,7 @@ bool is_poison(T value) {
 }
 
 template <class T>
-void fill_poison(BufferId id, HostBuffers<T>& host) {
+void poison_mirror(BufferId id, HostBuffers<T>& host) {
   std::ranges::fill(host.words_of(id), kPoison);
   std::ranges::fill(host[id], glm::vec<4, T>(poison<T>()));
 }
@@ -232,7 +232,7 @@ void Validator<T>::check_step(PassRunner& runner, std::size_t step, std::uint32_
   std::optional<FloatLoss> loss;
   if (!report_.exact_required) loss.emplace(planned, context, host);
   for (const BufferId id : result.outputs)
-    if (!runner.use_of(step, id).reads) fill_poison(id, host);
+    if (!runner.use_of(step, id).reads) poison_mirror(id, host);
   run_mirror(planned, context, host);
   if (planned.pass->settle_order) {
     planned.pass->settle_order(result.buffers);
