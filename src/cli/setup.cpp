@@ -65,9 +65,7 @@ std::unique_ptr<gpu::Device> open_device(const Options& o) {
   return std::make_unique<gpu::Device>(device_options(o));
 }
 
-std::string device_label(const gpu::DeviceInfo& info) {
-  return info.software ? info.name + " (software)" : info.name;
-}
+std::string device_label(const gpu::DeviceInfo& info) { return info.label(); }
 
 Machine start(const Options& o, const Setup& setup) {
   Machine machine;

@@ -27,6 +27,8 @@ struct DeviceInfo {
   bool anisotropy = false;  ///< samplerAnisotropy
   std::uint64_t memory_bytes = 0;
   std::string unusable;  ///< why it cannot run Weft; empty when it can
+  /// "llvmpipe (software)": the name, and plainly said when it is no GPU.
+  std::string label() const { return software ? name + " (software)" : name; }
 };
 
 /// Every Vulkan device there is, ranked discrete, integrated, virtual, software; unusable ones last.

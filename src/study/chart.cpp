@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "study/chart_scale.h"
+#include "study/series.h"
 #include "study/svg.h"
 
 namespace weft::study {
@@ -19,17 +19,6 @@ constexpr double kLeft = 92, kRight = 752, kTop = 104, kBottom = 566;
 constexpr double kMargin = 30;  // above the plot, where diverged settings stand
 constexpr double kRealTime_ms_per_s = 1000.0;
 constexpr double kMarker = 5.0;
-
-// Okabe and Ito, Color Universal Design (2008); the yellow, too light on white, comes last.
-constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                "#000000", "#e69f00", "#56b4e9", "#b8a800"};
-
-std::size_t solver_place(std::string_view name) {
-  const auto list = solvers();
-  for (std::size_t s = 0; s < list.size(); ++s)
-    if (list[s]->name == name) return s;
-  return list.size();
-}
 
 std::string dash_of(std::string_view precision) {
   if (precision == "f64") return "2 4";
@@ -48,41 +37,9 @@ std::vector<PicturePoint> polygon(double x, double y, int sides, double radius, 
 void draw_marker(Svg& svg, std::string_view solver, double x, double y, bool hollow) {
   const std::string color = solver_color(solver);
   const Paint paint{.fill = hollow ? "#ffffff" : color, .stroke = hollow ? color : "#ffffff", .width = 1.2};
-  constexpr double kPi = std::numbers::pi;
-  switch (solver_place(solver) % 8) {
-    case 0: return svg.circle(x, y, kMarker, paint);
-    case 1: return svg.path(polygon(x, y, 4, 1.35 * kMarker, kPi / 4), true, paint);  // square
-    case 2: return svg.path(polygon(x, y, 3, 1.45 * kMarker, 0.0), true, paint);      // triangle
-    case 3: return svg.path(polygon(x, y, 4, 1.4 * kMarker, 0.0), true, paint);       // diamond
-    case 4: return svg.path(polygon(x, y, 3, 1.45 * kMarker, kPi), true, paint);      // triangle, point down
-    case 5: return svg.path(polygon(x, y, 5, 1.35 * kMarker, 0.0), true, paint);      // pentagon
-    case 6: return svg.path(polygon(x, y, 3, 1.45 * kMarker, kPi / 2), true, paint);  // triangle to the right
-    default: return svg.path(polygon(x, y, 6, 1.3 * kMarker, 0.0), true, paint);      // hexagon
-  }
-}
-
-/// Points of one solver and precision, by rising substeps.
-struct Series {
-  std::string solver, precision;
-  std::vector<Point> points;
-};
-
-std::vector<Series> series_of(const std::vector<Point>& points) {
-  std::vector<Series> list;
-  for (const Point& point : points) {
-    auto at = std::find_if(list.begin(), list.end(), [&](const Series& s) {
-      return s.solver == point.setting.solver && s.precision == point.setting.precision;
-    });
-    if (at == list.end()) at = list.insert(at, {point.setting.solver, point.setting.precision, {}});
-    at->points.push_back(point);
-  }
-  for (Series& series : list)
-    std::sort(series.points.begin(), series.points.end(),
-              [](const Point& a, const Point& b) { return a.setting.substeps < b.setting.substeps; });
-  std::stable_sort(list.begin(), list.end(), [](const Series& a, const Series& b) {
-    return solver_place(a.solver) < solver_place(b.solver);
-  });
-  return list;
+  const Marker marker = solver_marker(solver);
+  if (marker.sides == 0) return svg.circle(x, y, kMarker, paint);
+  svg.path(polygon(x, y, marker.sides, marker.radius * kMarker, marker.turn_rad), true, paint);
 }
 
 class Diagram {
@@ -264,8 +221,6 @@ class Diagram {
 };
 
 }  // namespace
-
-std::string solver_color(std::string_view solver) { return kColors[solver_place(solver) % kColors.size()]; }
 
 std::string work_precision_svg(const Study& study, std::uint32_t nx, CostAxis axis) {
   return Diagram(study, nx, axis).draw();

@@ -13,7 +13,4 @@ enum class CostAxis { device_time, spring_evaluations };
 /// told apart by everyone; markers and dashes say the same without colour.
 std::string work_precision_svg(const Study& study, std::uint32_t nx, CostAxis axis);
 
-/// A solver's colour ("#rrggbb") in every diagram, and its place in the list of markers.
-std::string solver_color(std::string_view solver);
-
 }  // namespace weft::study

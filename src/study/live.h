@@ -37,6 +37,8 @@ class LiveError {
   std::optional<double> go_on();
   /// Milliseconds that the latest finished estimate took, waiting included: what the panel costs.
   double cost_ms() const { return cost_ms_; }
+  /// Of the copy.
+  std::uint64_t bytes() const { return copy_->bytes_allocated(); }
 
  private:
   std::uint32_t substeps_;

@@ -4,7 +4,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -13,9 +12,9 @@
 #include <thread>
 
 #include "core/error.h"
-#include "gpu/buffer.h"
 #include "gpu/shader.h"
 #include "render/image.h"
+#include "viewer/accuracy_panel.h"
 
 namespace weft {
 namespace {
@@ -89,7 +88,8 @@ Application::Application(const ViewerOptions& options)
       running_(device_, options.overrides, options.scene),
       gui_(device_, window_, swapchain_, ui_scale_),
       painter_(device_, swapchain_, gui_, options.samples),
-      controls_(window_, gui_) {
+      controls_(window_, gui_),
+      costs_(device_) {
   constant_facts_.device = device_.info().name;
   constant_facts_.software = device_.info().software;
   constant_facts_.samples = static_cast<std::uint32_t>(painter_.samples());
@@ -137,8 +137,10 @@ void Application::run() {
     const double budget_s = std::clamp(1e-3 * painter_.draw_ms(), kBudgetLeast_s, kBudgetMost_s);
     attempt([&] { running_.advance(elapsed_s, budget_s); });
     if (!running_.paused()) running_.measure();
+    attempt([&] { costs_.follow(running_); });
     gui_.begin_frame();
     const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
+    show_accuracy();
     if (draw_quit_question(view_)) window_.request_close();
     paint();
     handle_panels(wishes);
@@ -166,7 +168,9 @@ void Application::place_scene() {
   const double ratio = static_cast<double>(size.width) / std::max(1u, window_.size().width);
   const auto panel = static_cast<std::uint32_t>(std::lround(Panels::kWidth * ui_scale_ * ratio));
   const std::uint32_t left = view_.panels && size.width > panel + 200 ? panel : 0;
-  const SceneArea area{static_cast<std::int32_t>(left), 0, std::max(1u, size.width - left),
+  const auto accuracy = static_cast<std::uint32_t>(std::lround(kAccuracyWidth * ui_scale_ * ratio));
+  const std::uint32_t right = view_.accuracy && size.width > left + accuracy + 200 ? accuracy : 0;
+  const SceneArea area{static_cast<std::int32_t>(left), 0, std::max(1u, size.width - left - right),
                        std::max(1u, size.height)};
   if (area.width == view_.area.width && area.height == view_.area.height) return;
   view_.area = area;
@@ -197,6 +201,8 @@ void Application::handle_panels(const PanelWishes& wishes) {
     if (wishes.reset) running_.reset();
     if (wishes.toggle_pause) running_.set_paused(!running_.paused());
     if (wishes.step) running_.step();
+    if (wishes.measure_effects) costs_.start_trial(running_);
+    if (wishes.stop_measuring) costs_.cancel_trial();
     if (wishes.speed) running_.pacer().set_speed(*wishes.speed);
     if (wishes.scale)
       painter_.set_scale(*wishes.scale > 0.0 ? *wishes.scale : painter_.scale(), *wishes.scale <= 0.0);
@@ -209,6 +215,30 @@ void Application::handle_panels(const PanelWishes& wishes) {
     if (wishes.scene) pending_ = *wishes.scene;
   });
   apply_pending(wishes.edit_ended || wishes.material);
+}
+
+/// The accuracy panel and all it holds exist only while it is open.
+void Application::show_accuracy() {
+  if (!view_.accuracy) {
+    if (accuracy_) running_.stop_watching();
+    accuracy_.reset();
+    return;
+  }
+  if (!accuracy_) accuracy_ = std::make_unique<Accuracy>(device_);
+  attempt([&] {
+    accuracy_->follow(running_);
+    AccuracyWishes wishes = draw_accuracy_panel(running_, *accuracy_);
+    if (wishes.close) view_.accuracy = false;
+    if (wishes.start_study) accuracy_->start_study(running_);
+    if (wishes.cancel_study) accuracy_->cancel_study();
+    if (!wishes.setting) wishes.setting = accuracy_->wanted();
+    if (!wishes.setting) return;
+    Scene next = pending_.value_or(running_.scene());
+    set_setting(*wishes.setting, next);
+    pending_.reset();
+    running_.apply(next);
+    ++rebuilds_;
+  });
 }
 
 /// A slider that is dragged applies at once while that is quick, else when it is let go.
@@ -316,40 +346,9 @@ PanelFacts Application::facts() const {
   facts.scale = painter_.scale();
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
+  facts.costs = &costs_;
   if (facts.validating) facts.validation_messages = device_.validation_messages().size();
   return facts;
-}
-
-void Application::log() {
-  if (!log_.on()) return;
-  const Camera& camera = view_.camera;
-  const auto flag = [](bool on) { return on ? 1 : 0; };
-  const std::string settings = fmt::format(
-      "scene={} paused={} resolution={} speed={:.3f} membrane={:.6g} smooth={} wireframe={} heat={} help={} "
-      "overlay={} "
-      "timings={} panels={} quit_question={} filming={} error={} hand={} hand_pins={} pins={} minimised={} "
-      "size={}x{} rebuilds={}",
-      running_.which(), flag(running_.paused()), running_.model().grid.nx, running_.pacer().speed(),
-      running_.scene().material.membrane_n_m, flag(view_.look.shading == Shading::smooth),
-      flag(view_.look.wireframe), flag(view_.look.heat), flag(view_.help), flag(view_.overlay),
-      flag(view_.timings), flag(view_.panels), flag(view_.ask_quit), flag(view_.filming),
-      flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
-      running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
-      window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
-  const std::string figures = fmt::format(
-      "time_s={:.6f} real_time={:.3f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
-      "scale={:.2f} "
-      "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
-      "stretch={:.5f} "
-      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}",
-      running_.simulation().time_s(), running_.pacer().real_time_factor(),
-      flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
-      running_.figures().frame_ms, painter_.scale(), longest_gap_ms_, running_.figures().rebuild_ms,
-      flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
-      device_.validation_messages().size(), running_.simulation().plan().substeps,
-      running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
-      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","));
-  if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
 }
 
 }  // namespace weft

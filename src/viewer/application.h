@@ -7,8 +7,10 @@
 #include <string>
 
 #include "gpu/device.h"
+#include "viewer/accuracy.h"
 #include "viewer/capture.h"
 #include "viewer/controls.h"
+#include "viewer/effect_costs.h"
 #include "viewer/gui.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
@@ -33,6 +35,7 @@ class Application {
 
   void handle_input(double elapsed_s);
   void handle_panels(const PanelWishes&);
+  void show_accuracy();
   void paint();
   void pace();
   void open(const std::string& which);
@@ -63,6 +66,8 @@ class Application {
   Panels panels_;
   ViewState view_;
   PanelFacts constant_facts_;
+  EffectCosts costs_;
+  std::unique_ptr<Accuracy> accuracy_;  // while its panel is open
   std::array<float, 4> resolution_slider_{};
   std::optional<Scene> pending_;
   std::unique_ptr<Film> film_;

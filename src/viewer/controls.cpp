@@ -89,6 +89,7 @@ void Controls::look_command(Command command, ViewState& view) {
     case Command::help: view.help = !view.help; break;
     case Command::overlay: view.overlay = !view.overlay; break;
     case Command::pass_timings: view.timings = !view.timings; break;
+    case Command::accuracy: view.accuracy = !view.accuracy; break;
     case Command::panels: view.panels = !view.panels; break;
     case Command::screenshot: view.screenshot = true; break;
     case Command::wireframe: view.look.wireframe = !view.look.wireframe; break;

@@ -50,6 +50,7 @@ constexpr std::array kRows = {
     KeyRow{Command::help, GLFW_KEY_F1, 0, false, false, "F1", "this help", "Window"},
     KeyRow{Command::overlay, GLFW_KEY_F2, 0, false, false, "F2", "numbers in the corner", "Window"},
     KeyRow{Command::pass_timings, GLFW_KEY_F3, 0, false, false, "F3", "milliseconds a pass", "Window"},
+    KeyRow{Command::accuracy, GLFW_KEY_F4, 0, false, false, "F4", "what accuracy costs", "Window"},
     KeyRow{Command::panels, GLFW_KEY_TAB, 0, false, false, "Tab", "hide or show the panels", "Window"},
     KeyRow{Command::full_screen, GLFW_KEY_F11, 0, false, false, "F11", "full screen", "Window"},
     KeyRow{Command::cancel, GLFW_KEY_ESCAPE, 0, false, false, "Esc",

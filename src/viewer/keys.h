@@ -25,6 +25,7 @@ enum class Command {
   help,
   overlay,
   pass_timings,
+  accuracy,
   reload,
   full_screen,
   screenshot,

@@ -34,6 +34,14 @@ bool row(Scene& scene, std::string_view section, std::string_view key, std::stri
   return parameter != nullptr && parameter_widget(*parameter, scene, 0, label);
 }
 
+/// Beside the last widget: what it costs, if that is known.
+void cost(const PanelFacts& facts, const char* effect) {
+  const std::string text = facts.costs != nullptr ? facts.costs->text(effect) : std::string();
+  if (text.empty()) return;
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", text.c_str());
+}
+
 bool resolution_slider(Scene& scene, PanelWishes& wishes) {
   int resolution = static_cast<int>(scene.cloth.resolution);
   const bool changed =
@@ -109,22 +117,51 @@ void Panels::time_controls(const RunningScene& running, PanelWishes& wishes) {
   tooltip("simulated over real time; the time step stays the same");
 }
 
-void Panels::quick_sliders(Scene& scene, bool& changed, PanelWishes& wishes) {
+void Panels::quick_sliders(Scene& scene, bool& changed, const PanelFacts& facts, PanelWishes& wishes) {
   changed |= resolution_slider(scene, wishes);
   changed |= row(scene, "material", "membrane", "membrane");
   changed |= row(scene, "material", "shear", "shear");
   changed |= bending_slider(scene);
+  cost(facts, "bend");
   if (scene.wind) {
     changed |= strength_slider("wind [m/s]", scene.wind->velocity_m_s, {0.0, 0.0, 1.0}, 20.0f);
     tooltip("strength of the mean wind; its direction is under wind below");
+    cost(facts, "wind");
   } else {
     ImGui::TextDisabled("no wind (switch it on below)");
   }
-  if (scene.air) changed |= row(scene, "air", "drag", "drag");
+  if (scene.air) {
+    changed |= row(scene, "air", "drag", "drag");
+    cost(facts, "air");
+  }
   if (scene.gravity) {
     changed |= strength_slider("gravity [m/s²]", scene.gravity->acceleration_m_s2, {0.0, -1.0, 0.0}, 25.0f);
     tooltip("strength; its direction is under gravity below");
+    cost(facts, "gravity");
   }
+  bool apart = scene.self_collision.has_value();
+  if (ImGui::Checkbox("self-collision", &apart)) {
+    apart ? add_visible_section(scene, "self_collision") : remove_section(scene, "self_collision");
+    changed = true;
+  }
+  tooltip("whether the cloth's layers keep apart");
+  cost(facts, "self_collision");
+  if (scene.self_collision) changed |= row(scene, "self_collision", "thickness", "thickness");
+}
+
+/// Asks for a trial of what is folded into passes with others; its progress while it runs.
+void Panels::trial_controls(const PanelFacts& facts, PanelWishes& wishes) {
+  if (facts.costs == nullptr) return;
+  if (const EffectTrial* trial = facts.costs->trial()) {
+    wishes.stop_measuring = ImGui::Button("Stop", {74.0f, 0.0f});
+    ImGui::SameLine();
+    ImGui::Text("measuring, %zu of %zu", trial->done(), trial->total());
+    return;
+  }
+  wishes.measure_effects = ImGui::Button("Measure what each effect costs", {-1.0f, 0.0f});
+  tooltip(
+      "An effect with passes of its own shows its milliseconds at any time. The others are folded into "
+      "one pass: this runs some frames with and without each, on copies, which takes a few seconds.");
 }
 
 void Panels::all_parameters(Scene& scene, bool& changed, const PanelFacts& facts, PanelWishes& wishes) {
@@ -138,13 +175,21 @@ void Panels::all_parameters(Scene& scene, bool& changed, const PanelFacts& facts
     ImGui::EndCombo();
   }
   for (const std::string_view section : section_names())
-    if (!section.empty() && section != "expect") changed |= section_widget(section, scene);
+    if (!section.empty() && section != "expect") {
+      const std::string name(section);
+      changed |= section_widget(section, scene, facts.costs != nullptr ? facts.costs->text(name) : "");
+    }
+  trial_controls(facts, wishes);
 }
 
 void Panels::picture_controls(const PanelFacts& facts, ViewState& view, PanelWishes& wishes) {
   bool smooth = view.look.shading == Shading::smooth;
   if (ImGui::Checkbox("smooth", &smooth)) view.look.shading = smooth ? Shading::smooth : Shading::flat;
-  tooltip("off: flat shading, half of the triangles");
+  tooltip(facts.costs != nullptr
+              ? fmt::format("off: flat shading, half of the triangles; the normals take {} in either case",
+                            facts.costs->text("normals"))
+                    .c_str()
+              : "off: flat shading, half of the triangles");
   ImGui::SameLine();
   ImGui::Checkbox("wireframe", &view.look.wireframe);
   ImGui::SameLine();
@@ -191,12 +236,15 @@ void Panels::settings(const RunningScene& running, const Scene& pending, const P
   ImGui::Separator();
   time_controls(running, wishes);
   ImGui::Separator();
-  quick_sliders(edited, changed, wishes);
+  quick_sliders(edited, changed, facts, wishes);
   changed |= substeps_slider(edited, running.simulation().plan().substeps);
   if (ImGui::CollapsingHeader("All parameters")) all_parameters(edited, changed, facts, wishes);
   if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen))
     picture_controls(facts, view, wishes);
   ImGui::Separator();
+  if (ImGui::Button(view.accuracy ? "Hide what accuracy costs" : "What accuracy costs", {-1.0f, 0.0f}))
+    view.accuracy = !view.accuracy;
+  tooltip("F4: error against time of every solver on this device, and choosing by either");
   ImGui::TextDisabled("F1 help   Tab hides this panel");
   ImGui::PopItemWidth();
   ImGui::End();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/reader.h"
+#include "viewer/effect_costs.h"
 #include "viewer/running_scene.h"
 #include "viewer/view_state.h"
 
@@ -21,6 +22,7 @@ struct PanelWishes {
   std::optional<double> speed;
   std::optional<double> scale;  ///< of the drawn picture; 0: automatic
   std::optional<std::string> present_mode;
+  bool measure_effects = false, stop_measuring = false;
   std::array<float, 4> resolution_slider{};  ///< left, top, right, bottom [screen units]; for tests
 };
 
@@ -38,6 +40,7 @@ struct PanelFacts {
   std::vector<AssetInfo> scenes, materials;
   bool validating = false;
   std::size_t validation_messages = 0;
+  const EffectCosts* costs = nullptr;  ///< milliseconds beside switches
 };
 
 class Panels {
@@ -52,7 +55,8 @@ class Panels {
  private:
   void settings(const RunningScene&, const Scene& pending, const PanelFacts&, ViewState&, PanelWishes&);
   void time_controls(const RunningScene&, PanelWishes&);
-  void quick_sliders(Scene&, bool& changed, PanelWishes&);
+  void quick_sliders(Scene&, bool& changed, const PanelFacts&, PanelWishes&);
+  void trial_controls(const PanelFacts&, PanelWishes&);
   void all_parameters(Scene&, bool& changed, const PanelFacts&, PanelWishes&);
   void picture_controls(const PanelFacts&, ViewState&, PanelWishes&);
 

@@ -158,7 +158,7 @@ void add_visible_section(Scene& scene, std::string_view section) {
   }
 }
 
-bool section_widget(std::string_view section, Scene& scene) {
+bool section_widget(std::string_view section, Scene& scene, const std::string& cost) {
   const std::string name(section);
   ImGui::PushID(name.c_str());
   bool changed = false;
@@ -173,8 +173,9 @@ bool section_widget(std::string_view section, Scene& scene) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("whether %s is simulated at all", name.c_str());
     ImGui::SameLine();
   }
-  const std::string count = is_list ? fmt::format(" ({})", item_count(scene, section)) : std::string();
-  if (ImGui::TreeNodeEx(fmt::format("{}{}###tree", name, count).c_str(), on ? 0 : ImGuiTreeNodeFlags_Leaf)) {
+  std::string shown = is_list ? fmt::format("{} ({})", name, item_count(scene, section)) : name;
+  if (on && !cost.empty()) shown += ": " + cost;
+  if (ImGui::TreeNodeEx((shown + "###tree").c_str(), on ? 0 : ImGuiTreeNodeFlags_Leaf)) {
     if (on) changed |= is_list ? list_widgets(section, scene) : item_widgets(section, scene, 0);
     ImGui::TreePop();
   }

@@ -1,5 +1,6 @@
 // A widget for every row of the parameter table, and sections that can be switched on and off.
 #pragma once
+#include <string>
 #include <string_view>
 
 #include "scene/parameters.h"
@@ -16,8 +17,9 @@ bool parameter_widget(const Parameter& parameter, Scene& scene, std::size_t item
                       std::string_view label = {});
 
 /// All parameters of a section with its switch; list sections item by item.
-/// @return whether the scene was changed
-bool section_widget(std::string_view section, Scene& scene);
+/// @param cost  of the effect, shown beside its name; may be empty
+/// @return      whether the scene was changed
+bool section_widget(std::string_view section, Scene& scene, const std::string& cost = {});
 
 /// Adds an optional section with values that show its effect, where the table requires one.
 void add_visible_section(Scene& scene, std::string_view section);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "model/measures.h"
@@ -107,12 +108,15 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   if (pacer_.frame_s() != next.solver.frame_s) pacer_.set_frame(next.solver.frame_s);
   mid_frame_ = false;
   pieces_left_ = 0;
+  under_watch_.reset();  // its end would be another cloth's
+  watched_.reset();
   if (!keep_state) begin_again();
   figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
 }
 
 void RunningScene::begin_again() {
   diverged_ = mid_frame_ = false;
+  under_watch_.reset();
   pieces_left_ = 0;
   figures_.measured_at_s = -1.0;
   figures_.frame_ms = 0.0;
@@ -158,6 +162,7 @@ void RunningScene::grab(const State& state, const Pick& pick) {
   }
   mid_frame_ = false;
   pieces_left_ = 0;
+  under_watch_.reset();
   hand_.grab(before, held, state, pick);
 }
 
@@ -174,6 +179,7 @@ void RunningScene::begin_piece() {
   if (pieces_left_ == 0) {
     pieces_ = pieces_left_ = hand_.holds() ? hand_.pieces(model().grid, frame_s, substeps) : 1;
     frame_wall_ms_ = 0.0;
+    watch_start();
   }
   const double piece_s = frame_s / pieces_;
   if (hand_.holds()) simulation_->place(hand_.move(piece_s));
@@ -189,9 +195,36 @@ bool RunningScene::continue_frame() {
   simulation_->wait();
   frame_wall_ms_ += Milliseconds(Clock::now() - start).count();
   if (mid_frame_ || --pieces_left_ > 0) return true;
+  watch_end();
   figures_.frame_ms =
       figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * frame_wall_ms_ : frame_wall_ms_;
   return false;
+}
+
+/// The state before the first part of a frame, if somebody wants to see a frame.
+void RunningScene::watch_start() {
+  under_watch_.reset();
+  if (!watch_wanted_ || pieces_ > 1) return;
+  const Clock::time_point start = Clock::now();
+  under_watch_.emplace();
+  under_watch_->before = simulation_->read();
+  under_watch_->frame_s = scene_.solver.frame_s;
+  under_watch_->cost_ms = Milliseconds(Clock::now() - start).count();
+}
+
+void RunningScene::watch_end() {
+  if (!under_watch_) return;
+  const Clock::time_point start = Clock::now();
+  under_watch_->after = simulation_->read();
+  under_watch_->cost_ms += Milliseconds(Clock::now() - start).count();
+  watched_ = std::exchange(under_watch_, std::nullopt);
+  watch_wanted_ = false;
+}
+
+void RunningScene::stop_watching() {
+  watch_wanted_ = false;
+  under_watch_.reset();
+  watched_.reset();
 }
 
 void RunningScene::advance(double wall_s, double budget_s) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/reader.h"
@@ -21,6 +22,13 @@ struct RunFigures {
   double max_stretch = 0.0;     ///< read back now and then
   double measured_at_s = -1.0;  ///< simulated time of that reading; negative: none yet
   bool kept_plan = false;       ///< the latest change only rewrote parameters
+};
+
+/// One simulated frame as it was read back at both ends, for whoever asked.
+struct WatchedFrame {
+  State before, after;
+  double frame_s = 0.0;
+  double cost_ms = 0.0;  ///< what reading both took
 };
 
 /// A pin made with P, wherever the cloth was then.
@@ -56,12 +64,21 @@ class RunningScene {
   void measure();
   void measure_now();
 
+  /// Asks for the next whole frame's ends. A frame that a hand moves in, or a change cuts, is not taken.
+  void watch_next_frame() { watch_wanted_ = true; }
+  /// That frame, once, when it is done.
+  std::optional<WatchedFrame> take_watched() { return std::exchange(watched_, std::nullopt); }
+  /// Forgets what was asked for, and frees it.
+  void stop_watching();
+
   /// The hand takes hold of the cloth. @param state  as it is now, where `pick` was found
   void grab(const State& state, const Pick& pick);
   /// The hand lets go, if it holds anything.
   void release();
 
   const Scene& scene() const { return scene_; }
+  /// The compute pipelines made so far, for a copy of the running cloth.
+  const std::shared_ptr<GpuPipelines>& pipelines() const { return pipelines_; }
   /// The model as it is drawn: without the pins that the hand made, which may be anywhere by now.
   const Model& shown() const { return shown_; }
   std::uint64_t shown_version() const { return shown_version_; }
@@ -89,6 +106,8 @@ class RunningScene {
   void begin_again();
   void begin_piece();
   bool continue_frame();
+  void watch_start();
+  void watch_end();
 
   gpu::Device& device_;
   SceneOverrides overrides_;
@@ -107,6 +126,8 @@ class RunningScene {
   double frame_wall_ms_ = 0.0;
   std::uint64_t version_ = 0, shown_version_ = 0;
   Clock::time_point next_measure_{};
+  bool watch_wanted_ = false;
+  std::optional<WatchedFrame> under_watch_, watched_;
 };
 
 }  // namespace weft

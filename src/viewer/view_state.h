@@ -21,7 +21,7 @@ struct ViewState {
   Camera camera, home;
   Look look;
   SceneArea area;
-  bool panels = true, overlay = true, timings = false, help = false, ask_quit = false;
+  bool panels = true, overlay = true, timings = false, accuracy = false, help = false, ask_quit = false;
   bool screenshot = false;  ///< wanted of the next picture
   bool filming = false;
   std::optional<Message> message;

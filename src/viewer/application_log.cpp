@@ -1,0 +1,54 @@
+// The line of the viewer's log: everything a test or a bug report wants to know of the window.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "gpu/buffer.h"
+#include "viewer/application.h"
+
+namespace weft {
+namespace {
+
+/// For the log: whether there is a study, or one runs.
+const char* accuracy_text(const Accuracy* accuracy) {
+  if (accuracy == nullptr) return "closed";
+  if (accuracy->study_run() != nullptr) return "running";
+  return accuracy->study() != nullptr ? "kept" : "none";
+}
+
+}  // namespace
+
+void Application::log() {
+  if (!log_.on()) return;
+  const Camera& camera = view_.camera;
+  const auto flag = [](bool on) { return on ? 1 : 0; };
+  const std::string settings = fmt::format(
+      "scene={} paused={} resolution={} speed={:.3f} membrane={:.6g} smooth={} wireframe={} heat={} help={} "
+      "overlay={} "
+      "timings={} accuracy={} study={} solver={} panels={} quit_question={} filming={} error={} hand={} "
+      "hand_pins={} pins={} minimised={} "
+      "size={}x{} rebuilds={}",
+      running_.which(), flag(running_.paused()), running_.model().grid.nx, running_.pacer().speed(),
+      running_.scene().material.membrane_n_m, flag(view_.look.shading == Shading::smooth),
+      flag(view_.look.wireframe), flag(view_.look.heat), flag(view_.help), flag(view_.overlay),
+      flag(view_.timings), flag(view_.accuracy), accuracy_text(accuracy_.get()), running_.scene().solver.name,
+      flag(view_.panels), flag(view_.ask_quit), flag(view_.filming),
+      flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
+      running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
+      window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
+  const std::string figures = fmt::format(
+      "time_s={:.6f} real_time={:.3f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
+      "scale={:.2f} "
+      "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
+      "stretch={:.5f} "
+      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}",
+      running_.simulation().time_s(), running_.pacer().real_time_factor(),
+      flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
+      running_.figures().frame_ms, painter_.scale(), longest_gap_ms_, running_.figures().rebuild_ms,
+      flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
+      device_.validation_messages().size(), running_.simulation().plan().substeps,
+      running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
+      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","));
+  if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
+}
+
+}  // namespace weft
