@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -71,6 +72,8 @@ Swapchain::Swapchain(gpu::Device& device, Surface& surface, const std::string& p
         device.info().name);
   choose_format();
   set_present_mode(present_mode);
+  if (const char* count = std::getenv("WEFT_SIMULATE_SURFACE_LOSS_AFTER"))
+    images_until_loss_ = std::strtoull(count, nullptr, 10) + 1;
 }
 
 Swapchain::~Swapchain() {
@@ -123,10 +126,7 @@ bool Swapchain::recreate(WindowSize framebuffer) {
   const VkResult asked =
       vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_.handle(), &can);
   if (asked == VK_ERROR_SURFACE_LOST_KHR) {
-    device_.wait_idle();
-    destroy_images();
-    vkDestroySwapchainKHR(device_.handle(), std::exchange(handle_, VK_NULL_HANDLE), nullptr);
-    surface_.recreate();
+    replace_surface();
     return false;
   }
   gpu::check(asked, "what the window's surface can do");
@@ -165,6 +165,13 @@ bool Swapchain::recreate(WindowSize framebuffer) {
   return true;
 }
 
+void Swapchain::replace_surface() {
+  device_.wait_idle();
+  destroy_images();
+  vkDestroySwapchainKHR(device_.handle(), std::exchange(handle_, VK_NULL_HANDLE), nullptr);
+  surface_.recreate();
+}
+
 void Swapchain::make_images() {
   const auto images = enumerate<VkImage>(
       [&](std::uint32_t* count, VkImage* data) {
@@ -200,6 +207,10 @@ void Swapchain::destroy_images() {
 
 std::optional<SwapchainImage> Swapchain::acquire(VkSemaphore acquired, WindowSize framebuffer) {
   if (framebuffer.empty()) return std::nullopt;
+  if (images_until_loss_ > 0 && --images_until_loss_ == 0) {
+    replace_surface();
+    return std::nullopt;
+  }
   if (made_for_ != framebuffer) stale_ = true;
   if (stale_ && !recreate(framebuffer)) return std::nullopt;
   std::uint32_t index = 0;

@@ -37,6 +37,8 @@ struct SwapchainImage {
   VkSemaphore drawn = VK_NULL_HANDLE;  ///< to be signalled when the picture is ready to show
 };
 
+/// Debug switch in the environment: WEFT_SIMULATE_SURFACE_LOSS_AFTER=n lets the surface be lost once, after n
+/// pictures.
 class Swapchain {
  public:
   /// @param present_mode "fifo", "mailbox", "immediate", or empty for fifo
@@ -66,6 +68,7 @@ class Swapchain {
  private:
   void choose_format();
   bool recreate(WindowSize framebuffer);
+  void replace_surface();
   void make_images();
   void destroy_images();
 
@@ -80,6 +83,7 @@ class Swapchain {
   std::vector<SwapchainImage> images_;
   std::uint64_t generation_ = 0;
   bool stale_ = true;
+  std::uint64_t images_until_loss_ = 0;  // 0: no loss is simulated
 };
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 // Xvfb, the program, xdotool and the log.
 #include "viewer/window_driver.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -178,6 +179,26 @@ void WindowUnderTest::act(const std::string& words) const {
   std::string output;
   const int code = run_command("W=" + window_ + "; xdotool " + words, output);
   if (code != 0) throw std::runtime_error("xdotool " + words + ": " + output);
+}
+
+bool WindowUnderTest::say_minimised(bool minimised) const {
+  // Loaded here, so that the build needs no headers of X11.
+  void* x11 = dlopen("libX11.so.6", RTLD_NOW | RTLD_LOCAL);
+  if (x11 == nullptr) return false;
+  const auto open_display = reinterpret_cast<void* (*)(const char*)>(dlsym(x11, "XOpenDisplay"));
+  const auto intern = reinterpret_cast<unsigned long (*)(void*, const char*, int)>(dlsym(x11, "XInternAtom"));
+  const auto change = reinterpret_cast<int (*)(void*, unsigned long, unsigned long, unsigned long, int, int,
+                                               const void*, int)>(dlsym(x11, "XChangeProperty"));
+  const auto close_display = reinterpret_cast<int (*)(void*)>(dlsym(x11, "XCloseDisplay"));
+  if (open_display == nullptr || intern == nullptr || change == nullptr || close_display == nullptr)
+    return false;
+  void* display = open_display(nullptr);
+  if (display == nullptr) return false;
+  const unsigned long name = intern(display, "WM_STATE", 0);
+  const std::array<long, 2> state{minimised ? 3 : 1, 0};  // IconicState or NormalState, no icon window
+  change(display, std::stoul(window_), name, name, 32, 0, state.data(), 2);
+  close_display(display);  // sends what is pending
+  return true;
 }
 
 int WindowUnderTest::exit_code() {

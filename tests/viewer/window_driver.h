@@ -53,6 +53,9 @@ class WindowUnderTest {
   void key(const std::string& name) const { act("key " + name); }
   /// xdotool's own words: "mousemove --window $W 10 20 click 1"; $W is the window.
   void act(const std::string& words) const;
+  /// Says that the window is minimised, or normal again, as a window manager does (none runs here): the
+  /// property WM_STATE of ICCCM 4.1.3.1. Returns false where libX11 cannot be loaded.
+  bool say_minimised(bool minimised) const;
   std::filesystem::path folder() const { return folder_; }
   /// Waits for the program to end and returns its exit code; −1 when it does not within 10 s.
   int exit_code();

@@ -4,51 +4,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
-#include "gpu_fixture.h"
 #include "render/image.h"
-#include "viewer/window_driver.h"
+#include "viewer/window_fixture.h"
 
 namespace weft {
 namespace {
 
+using test::WindowTest;
 using test::WindowUnderTest;
-
-class WindowTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    if (!test::window_tests_impossible().empty() || !test::gpu_there()) return;
-    setenv("XDG_CACHE_HOME", WEFT_BINARY_DIR "/test-cache", 1);
-    display_ = std::make_unique<test::VirtualDisplay>();
-    setenv("DISPLAY", display_->name().c_str(), 1);
-    unsetenv("WAYLAND_DISPLAY");
-  }
-  static void TearDownTestSuite() { display_.reset(); }
-  void SetUp() override {
-    if (!display_)
-      GTEST_SKIP() << "no window: " << test::window_tests_impossible() << " (or no Vulkan device)";
-  }
-  static void expect_silence(const WindowUnderTest& window) { EXPECT_EQ(window.value("messages"), "0"); }
-
- private:
-  static inline std::unique_ptr<test::VirtualDisplay> display_;
-};
-
-/// A place along the resolution slider, 0 its left and 1 its right end, as xdotool takes it.
-std::string slider_place(const WindowUnderTest& window, double share) {
-  std::stringstream text(window.value("slider"));
-  double left = 0, top = 0, right = 0, bottom = 0;
-  char comma = 0;
-  text >> left >> comma >> top >> comma >> right >> comma >> bottom;
-  const int x = static_cast<int>(std::lround(left + 8.0 + share * (right - left - 16.0)));
-  return std::to_string(x) + " " + std::to_string(static_cast<int>((top + bottom) / 2.0));
-}
-
-void drag_slider(const WindowUnderTest& window, double share) {
-  window.act("mousemove --window $W " + slider_place(window, share) +
-             " sleep 0.05 mousedown 1 sleep 0.05 mouseup 1");
-}
 
 TEST_F(WindowTest, KeysOpenScenesPauseStepAndShowHelp) {
   WindowUnderTest window({"1", "--resolution", "20"});
