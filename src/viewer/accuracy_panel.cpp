@@ -23,6 +23,12 @@ void wrapped(const ImVec4& color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+/// Where the last widget lies.
+std::array<float, 4> place_of_item(float width) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  return {low.x, low.y, width > 0.0f ? low.x + width : high.x, high.y};
+}
+
 void study_rows(const Accuracy& accuracy, const RunningScene& running, AccuracyWishes& wishes) {
   if (const StudyRun* run = accuracy.study_run()) {
     const StudyProgress now = run->progress();
@@ -33,6 +39,7 @@ void study_rows(const Accuracy& accuracy, const RunningScene& running, AccuracyW
     ImGui::ProgressBar(share, {-80.0f * ui_scale(), 0.0f}, text.c_str());
     ImGui::SameLine();
     wishes.cancel_study = ImGui::Button("Cancel", {-1.0f, 0.0f});
+    wishes.study_button = place_of_item(0.0f);
     wrapped(now.doing);
     ImGui::TextDisabled("The cloth rests meanwhile, so that the times are right.");
     return;
@@ -45,7 +52,9 @@ void study_rows(const Accuracy& accuracy, const RunningScene& running, AccuracyW
                     "meanwhile.",
                     grid.nx, grid.ny, Accuracy::kStudyTime_s));
   if (!accuracy.study_failure().empty()) wrapped(kWarningColor, accuracy.study_failure());
-  if (accuracy.study() == nullptr) wishes.start_study = ImGui::Button("Run the quick study", {-1.0f, 0.0f});
+  if (accuracy.study() != nullptr) return;
+  wishes.start_study = ImGui::Button("Run the quick study", {-1.0f, 0.0f});
+  wishes.study_button = place_of_item(0.0f);
 }
 
 std::optional<double> live_ms_per_s(const Accuracy& accuracy) {
@@ -89,9 +98,12 @@ void now_rows(const Accuracy& accuracy, const RunningScene& running) {
     ImGui::TextDisabled("one frame against twice the substeps: %s", running.paused() ? "paused" : "...");
 }
 
+/// What the sliders' labels leave.
+float slider_width() { return ImGui::GetContentRegionAvail().x - 80.0f * ui_scale(); }
+
 /// A slider over decades. (ImGui's own logarithmic one cuts off what its format does not show.)
 bool wish_slider(const char* label, double& value, double least, double most, const std::string& shown) {
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 80.0f * ui_scale());
+  ImGui::SetNextItemWidth(slider_width());
   auto decades = static_cast<float>(std::log10(value));
   const bool moved =
       ImGui::SliderFloat(label, &decades, static_cast<float>(std::log10(least)),
@@ -100,7 +112,7 @@ bool wish_slider(const char* label, double& value, double least, double most, co
   return moved;
 }
 
-void choosing_rows(Accuracy& accuracy) {
+void choosing_rows(Accuracy& accuracy, AccuracyWishes& wishes) {
   ImGui::BeginDisabled(accuracy.study() == nullptr);
   SettingWish& wish = accuracy.wish();
   const auto radio = [&](const char* name, WishKind kind) {
@@ -113,6 +125,7 @@ void choosing_rows(Accuracy& accuracy) {
   radio("by frame time", WishKind::budget);
   if (wish_slider("error [m]", wish.error_m, 1e-8, 1e-1, fmt::format("{:.1e}", wish.error_m)))
     wish.kind = WishKind::error;
+  wishes.error_slider = place_of_item(slider_width());
   if (wish_slider("frame [ms]", wish.budget_ms, 0.05, 500.0, fmt::format("{:.3g}", wish.budget_ms)))
     wish.kind = WishKind::budget;
   ImGui::EndDisabled();
@@ -159,7 +172,7 @@ AccuracyWishes draw_accuracy_panel(const RunningScene& running, Accuracy& accura
   diagram_rows(accuracy, running, wishes);
   now_rows(accuracy, running);
   ImGui::Separator();
-  choosing_rows(accuracy);
+  choosing_rows(accuracy, wishes);
   ImGui::Separator();
   draw_history(accuracy.watch().history(), ImGui::GetContentRegionAvail().x);
   ImGui::Separator();

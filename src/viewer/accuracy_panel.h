@@ -1,6 +1,7 @@
 // The accuracy panel at the window's right edge (F4): the diagram, the two sliders that choose, the live
 // estimate, stretch and energy over time, and what all of it costs.
 #pragma once
+#include <array>
 #include <optional>
 
 #include "viewer/accuracy.h"
@@ -10,7 +11,8 @@ namespace weft {
 
 /// What was asked for in it.
 struct AccuracyWishes {
-  std::optional<study::Setting> setting;  ///< to run now
+  std::optional<study::Setting> setting;                ///< to run now
+  std::array<float, 4> error_slider{}, study_button{};  ///< left, top, right, bottom; for tests
   bool start_study = false, cancel_study = false, close = false;
 };
 

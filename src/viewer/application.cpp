@@ -228,6 +228,8 @@ void Application::show_accuracy() {
   attempt([&] {
     accuracy_->follow(running_);
     AccuracyWishes wishes = draw_accuracy_panel(running_, *accuracy_);
+    error_slider_ = wishes.error_slider;
+    study_button_ = wishes.study_button;
     if (wishes.close) view_.accuracy = false;
     if (wishes.start_study) accuracy_->start_study(running_);
     if (wishes.cancel_study) accuracy_->cancel_study();

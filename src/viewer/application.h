@@ -47,6 +47,7 @@ class Application {
   void place_scene();
   PanelFacts facts() const;
   void log();
+  std::string accuracy_figures() const;
   bool time_to_quit() const;
   /// Runs what a person asked for; a mistake becomes a message and changes nothing.
   template <class Action>
@@ -68,7 +69,7 @@ class Application {
   PanelFacts constant_facts_;
   EffectCosts costs_;
   std::unique_ptr<Accuracy> accuracy_;  // while its panel is open
-  std::array<float, 4> resolution_slider_{};
+  std::array<float, 4> resolution_slider_{}, error_slider_{}, study_button_{};
   std::optional<Scene> pending_;
   std::unique_ptr<Film> film_;
   bool scale_was_automatic_ = false;

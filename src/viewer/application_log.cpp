@@ -17,6 +17,15 @@ const char* accuracy_text(const Accuracy* accuracy) {
 
 }  // namespace
 
+/// What only an open accuracy panel has.
+std::string Application::accuracy_figures() const {
+  if (!accuracy_) return "";
+  const auto& error = accuracy_->watch().frame_error();
+  return fmt::format(" precision={} error_slider={} study_button={} wish_error={:.6e} live_error={:.3e}",
+                     running_.scene().solver.precision, fmt::join(error_slider_, ","),
+                     fmt::join(study_button_, ","), accuracy_->wish().error_m, error ? error->error_m : -1.0);
+}
+
 void Application::log() {
   if (!log_.on()) return;
   const Camera& camera = view_.camera;
@@ -40,14 +49,14 @@ void Application::log() {
       "scale={:.2f} "
       "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
       "stretch={:.5f} "
-      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}",
+      "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}{}",
       running_.simulation().time_s(), running_.pacer().real_time_factor(),
       flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
       running_.figures().frame_ms, painter_.scale(), longest_gap_ms_, running_.figures().rebuild_ms,
       flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
       device_.validation_messages().size(), running_.simulation().plan().substeps,
       running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
-      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","));
+      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","), accuracy_figures());
   if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
 }
 
