@@ -43,8 +43,8 @@ struct ValidationReport {
 
 /// Compares the device with the reference on this scene.
 /// For every step of the plan and every state: outputs are poisoned with NaN, everything else is filled, the
-/// pass runs once on the device and once as its float mirror; outputs are compared and all other buffers must
-/// keep every bit. Then both run the same frames and are compared.
+/// pass runs once on the device and once as its mirror of the scene's precision; outputs are compared and all
+/// other buffers must keep every bit. Then both run the same frames and are compared.
 ///
 /// Software devices must agree to the bit. Others divide and take roots a few ulp off, and are held to what
 /// float itself loses on the very same work: the float mirror against the double mirror gives a largest and a
@@ -52,7 +52,8 @@ struct ValidationReport {
 /// errors of forces between particles cancel in pairs, so the mean difference has a much narrower allowance
 /// (see allowance() in validate.cpp); a wrong gravity or wind, lost below the rounding of stiff springs in
 /// every single particle, shows there. Lockstep is judged by the same two factors, against the double
-/// reference after the same steps.
+/// reference after the same steps. In f64 the device is held against the double mirror, to all these
+/// allowances times 2^-29, the ratio of double's rounding to float's.
 /// @throws Error(Exit::usage) when `perturb` names no constant that this scene's plan has on.
 ValidationReport validate(gpu::Device&, const Model&, const Solver&, const ValidationOptions& = {});
 
