@@ -108,7 +108,7 @@ void add_shared_options(CLI::App& app, Options& o) {
            [&o](const std::string& text) {
              if (text.empty())
                throw Error(Exit::usage, "--device is empty; give a name, an index, a UUID or cpu");
-             o.device = text;
+             o.device = in_lower_case(text) == "cpu" ? "cpu" : text;  // device names ignore case
            });
   add_scene_key_options(app, o);
   add_text(app, "--time", "how long to simulate [s]; default 5", "SECONDS", [&o](const std::string& text) {

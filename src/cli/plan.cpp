@@ -1,6 +1,7 @@
 // `weft plan`: what a scene would run, over which ranges, in which buffers, and what is left out.
 #include "plan/plan.h"
 
+#include "cli/choose.h"
 #include "cli/command.h"
 #include "cli/setup.h"
 #include "cli/table.h"
@@ -19,8 +20,10 @@ std::string steps_as_csv(const Plan& plan) {
   return to_text(table, Format::csv);
 }
 
-Exit run_plan(const Options& o) {
-  const Setup setup = set_up(o, only_scene(o));
+Exit run_plan(const Options& asked) {
+  const std::string& name = only_scene(asked);
+  const Options o = with_chosen_setting(asked, name, [&](const Scene&) { return asked.time_or_default_s(); });
+  const Setup setup = set_up(o, name);
   const Plan compiled = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
   std::string text;
   switch (o.format) {
@@ -33,10 +36,15 @@ Exit run_plan(const Options& o) {
   return Exit::ok;
 }
 
+void add_plan_options(CLI::App& app, Options& o) {
+  add_scene(app, o);
+  add_choice_options(app, o);
+}
+
 }  // namespace
 
 const Command plan{"plan",
                    "prints the passes, constants, ranges and buffers of a scene, and what is left out",
-                   "  weft plan 1\n  weft plan 5 --resolution 256 --format json", add_scene, run_plan};
+                   "  weft plan 1\n  weft plan 5 --resolution 256 --format json", add_plan_options, run_plan};
 
 }  // namespace weft::cli

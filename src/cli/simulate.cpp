@@ -11,6 +11,7 @@
 #include "cli/state_output.h"
 #include "cli/summary.h"
 #include "cli/table.h"
+#include "core/text.h"
 #include "sim/expect.h"
 
 namespace weft::cli {
@@ -106,7 +107,8 @@ bool report_self_collision(const Options& o, Simulation& simulation) {
   const std::optional<SelfCollisionReport> report = simulation.self_collision();
   if (!report) return true;
   if (o.verbose)
-    std::cerr << fmt::format("weft: self-collision made its lists {} times\n", report->lists_built);
+    std::cerr << fmt::format("weft: self-collision made its lists {}\n",
+                             counted(report->lists_built, "time"));
   if (report->pairs_dropped == 0) return true;
   std::cerr << fmt::format(
       "weft: self-collision: {} pairs found no room in the lists, so that contacts may have been missed: the "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/table.h"
+#include "core/text.h"
 #include "model/measures.h"
 
 namespace weft::cli {
@@ -12,11 +13,12 @@ namespace {
 std::string human_line(const Scene& scene, const nlohmann::ordered_json& s, const std::string& tail) {
   const std::string name = scene.title.empty() ? scene.source : scene.title;
   return fmt::format(
-      "{} · {} · {} · {} · {} substeps · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
+      "{} · {} · {} · {} · {} · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
       "max stretch {:.3g} %{}\n",
       name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
-      s["substeps"].get<std::uint32_t>(), s["time_s"].get<double>(), s["wall_s"].get<double>(),
-      s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>(), tail);
+      counted(s["substeps"].get<std::uint32_t>(), "substep"), s["time_s"].get<double>(),
+      s["wall_s"].get<double>(), s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>(),
+      tail);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // `weft validate`: the device against the CPU reference, pass by pass and in lockstep, as one table.
 #include "sim/validate.h"
 
+#include "cli/choose.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/setup.h"
@@ -92,7 +93,9 @@ Exit run_validate(const Options& o) {
         "with); see `weft devices`");
   const std::vector<std::string> names = scenes_asked_for(o);
   std::vector<Setup> setups;
-  for (const std::string& name : names) setups.push_back(set_up(o, name));
+  for (const std::string& name : names)
+    setups.push_back(
+        set_up(with_chosen_setting(o, name, [&](const Scene&) { return o.time_or_default_s(); }), name));
   require_effect(o, setups);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   const ValidationOptions options{.perturb = o.perturb};
@@ -113,6 +116,7 @@ Exit run_validate(const Options& o) {
 
 void add_validate_options(CLI::App& app, Options& o) {
   add_scenes(app, o);
+  add_choice_options(app, o);
   app.add_option_function<std::string>(
          "--perturb",
          [&o](const std::string& text) {

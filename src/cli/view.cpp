@@ -1,5 +1,6 @@
 // `weft view`, also plain `weft`: the window. The one place where src/viewer is hooked in; CMake defines
 // WEFT_HAS_VIEWER when it builds the library weft_viewer.
+#include "cli/choose.h"
 #include "cli/command.h"
 #include "cli/setup.h"
 #ifdef WEFT_HAS_VIEWER
@@ -16,7 +17,8 @@ Exit run_view(const Options& o) {
   if (!o.scenes.empty())
     find_scene(o.scenes.front());  // a slip of the keyboard is said without a display, too
   if (!o.scenes.empty()) window.scene = o.scenes.front();
-  window.overrides = overrides_of(o);
+  window.overrides =
+      overrides_of(with_chosen_setting(o, window.scene, [&](const Scene&) { return o.time_or_default_s(); }));
   window.device = o.device;
   window.validation = o.validation;
   window.force_staging = o.force_staging;
@@ -36,9 +38,14 @@ Exit run_view(const Options& o) {
 }
 #endif
 
+void add_view_options(CLI::App& app, Options& o) {
+  add_scene(app, o);
+  add_choice_options(app, o);
+}
+
 }  // namespace
 
-const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_scene,
+const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_view_options,
                    run_view};
 
 }  // namespace weft::cli

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "gpu/environment.h"
 #include "gpu/instance.h"
 
@@ -114,12 +115,6 @@ int rank(const DeviceInfo& info) {
   }
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_number(const std::string& text) {
   return !text.empty() && text.size() < 5 &&
          std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -127,7 +122,8 @@ bool is_number(const std::string& text) {
 
 bool means(const std::string& choice, const DeviceInfo& info) {
   if (is_number(choice)) return info.index == std::stoul(choice);
-  return lower(info.uuid) == lower(choice) || lower(info.name).find(lower(choice)) != std::string::npos;
+  return in_lower_case(info.uuid) == in_lower_case(choice) ||
+         in_lower_case(info.name).find(in_lower_case(choice)) != std::string::npos;
 }
 
 std::string table(const std::vector<Candidate>& candidates) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/text.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -42,8 +43,8 @@ std::string buffer_note(BufferId id, const Plan& plan) {
 std::string describe(const Plan& plan, const Model& model) {
   std::string text = fmt::format("{} - {} x {} particles, {} springs\n", model.scene.title, model.grid.nx,
                                  model.grid.ny, model.spring_count);
-  text += fmt::format("solver {}: {} substeps a frame of {:.6g} s, {} dispatches\n\n", plan.solver->name,
-                      plan.substeps, model.scene.solver.frame_s, plan.dispatches());
+  text += fmt::format("solver {}: {} a frame of {:.6g} s, {} dispatches\n\n", plan.solver->name,
+                      counted(plan.substeps, "substep"), model.scene.solver.frame_s, plan.dispatches());
   text += fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", "block", "pass", "repeat", "range", "effects");
   for (const PlanStep& step : plan.steps)
     text +=

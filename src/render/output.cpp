@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "render/image.h"
 #include "render/video.h"
 
@@ -44,10 +45,7 @@ std::optional<NumberField> find_field(const std::string& name) {
 }
 
 std::string lower_extension(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return in_lower_case(fs::path(name).extension().string());
 }
 
 /// Both an AtomicPath's checks and a try: nothing is left behind.

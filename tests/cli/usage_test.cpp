@@ -158,7 +158,7 @@ TEST(Usage, NoVulkanDeviceIsExitThreeAndTheCpuStillWorks) {
   EXPECT_CODE(without, 3);
   EXPECT_EQ(without.out, "");
   Arguments on_cpu = command;
-  on_cpu.insert(on_cpu.end(), {"--device", "cpu"});
+  on_cpu.insert(on_cpu.end(), {"--device", "CPU"});  // names ignore case
   EXPECT_CODE(weft(on_cpu, none), 0);
   const Result devices = weft({"devices"}, none);
   EXPECT_CODE(devices, 0);

@@ -50,5 +50,12 @@ TEST(Text, JoinsAsASentence) {
   EXPECT_EQ(joined(std::span(words).first(1)), "a");
 }
 
+TEST(Text, CountsAndLowersCase) {
+  EXPECT_EQ(counted(0, "substep"), "0 substeps");
+  EXPECT_EQ(counted(1, "substep"), "1 substep");
+  EXPECT_EQ(counted(2, "substep"), "2 substeps");
+  EXPECT_EQ(in_lower_case("CPU (Z) é"), "cpu (z) é");
+}
+
 }  // namespace
 }  // namespace weft
