@@ -14,7 +14,7 @@ std::filesystem::path file_for(const std::filesystem::path& folder, double time_
   return folder / fmt::format("{:.9g}.json", time_s);
 }
 
-std::optional<Study> load(const std::filesystem::path& file, const std::string& device) {
+std::optional<Study> load_study(const std::filesystem::path& file, const std::string& device) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(file, failure)) return {};
   try {
@@ -50,7 +50,7 @@ void keep_study(const Scene& scene, const Study& study) {
     const std::filesystem::path folder = kept_folder(at_resolution, study.device);
     if (folder.empty() || !make_folder(folder)) return;
     const std::filesystem::path file = file_for(folder, study.time_s);
-    const std::optional<Study> known = load(file, study.device);
+    const std::optional<Study> known = load_study(file, study.device);
     if (study.quick && known && !known->quick) continue;
     try {
       write_file(file, to_json(only(study, cloth)));
@@ -63,11 +63,11 @@ void keep_study(const Scene& scene, const Study& study) {
 std::optional<Study> kept_study(const Scene& scene, const std::string& device, std::optional<double> time_s) {
   const std::filesystem::path folder = kept_folder(scene, device);
   if (folder.empty()) return {};
-  if (time_s) return load(file_for(folder, *time_s), device);
+  if (time_s) return load_study(file_for(folder, *time_s), device);
   std::optional<Study> longest;
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
-    auto study = load(entry.path(), device);
+    auto study = load_study(entry.path(), device);
     if (study && (!longest || study->time_s > longest->time_s)) longest = std::move(study);
   }
   return longest;

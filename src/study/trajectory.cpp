@@ -13,7 +13,7 @@
 namespace weft::study {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNotFinite_m = std::numeric_limits<double>::infinity();
 
 /// A place along one axis of a grid: between two lines, and how far towards the second.
 struct Place {
@@ -64,11 +64,11 @@ Trajectory run_on_cpu(const Model& model, const Setting& setting, double time_s,
 
 double frame_distance(const State& a, const State& b) {
   const double distance_m = rms_distance(a, b);
-  return std::isfinite(distance_m) ? distance_m : kInfinite;
+  return std::isfinite(distance_m) ? distance_m : kNotFinite_m;
 }
 
 double trajectory_distance(const Trajectory& a, const Trajectory& b) {
-  if (a.size() != b.size()) return kInfinite;
+  if (a.size() != b.size()) return kNotFinite_m;
   double largest_m = 0.0;
   for (std::size_t f = 0; f < a.size(); ++f) largest_m = std::max(largest_m, frame_distance(a[f], b[f]));
   return largest_m;
@@ -86,7 +86,7 @@ double resolution_distance(const Grid& coarse_grid, const State& coarse, const G
     }
   }
   const double distance_m = std::sqrt(sum / coarse_grid.count());
-  return std::isfinite(distance_m) ? distance_m : kInfinite;
+  return std::isfinite(distance_m) ? distance_m : kNotFinite_m;
 }
 
 }  // namespace weft::study
