@@ -1,6 +1,8 @@
 // Index lists, generated.
 #include "render/mesh.h"
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -16,6 +18,19 @@ std::vector<std::uint32_t> cloth_triangles(const Grid& grid) {
     for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
       const std::uint32_t a = grid.index(i, j), right = a + 1, below = a + grid.nx;
       for (const std::uint32_t index : {a, below, right, right, below, below + 1}) indices.push_back(index);
+    }
+  return indices;
+}
+
+std::vector<std::uint32_t> cloth_triangles_coarse(const Grid& grid, std::uint32_t stride) {
+  std::vector<std::uint32_t> indices;
+  const auto next = [&](std::uint32_t k, std::uint32_t count) { return std::min(k + stride, count - 1); };
+  for (std::uint32_t j = 0; j + 1 < grid.ny; j = next(j, grid.ny))
+    for (std::uint32_t i = 0; i + 1 < grid.nx; i = next(i, grid.nx)) {
+      const std::uint32_t a = grid.index(i, j), right = grid.index(next(i, grid.nx), j),
+                          below = grid.index(i, next(j, grid.ny)),
+                          last = grid.index(next(i, grid.nx), next(j, grid.ny));
+      for (const std::uint32_t index : {a, below, right, right, below, last}) indices.push_back(index);
     }
   return indices;
 }

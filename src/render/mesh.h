@@ -11,6 +11,9 @@ namespace weft {
 /// and B = (i+1,j), (i,j+1), (i+1,j+1); 6·(nx−1)·(ny−1) indices.
 std::vector<std::uint32_t> cloth_triangles(const Grid& grid);
 
+/// The same over every `stride`-th particle along both sides and the last one, so that the edges stay.
+std::vector<std::uint32_t> cloth_triangles_coarse(const Grid& grid, std::uint32_t stride);
+
 /// The A triangles only: half of them, so that the triangulation shows. 3·(nx−1)·(ny−1) indices.
 std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid);
 

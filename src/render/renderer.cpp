@@ -153,6 +153,13 @@ void Renderer::begin_pass(VkCommandBuffer commands, const VkRenderingInfo& info)
                           nullptr);
 }
 
+/// A software device spends half of a picture of 256 × 256 particles on the shadow of triangles smaller than
+/// a texel of its map; every second or fourth particle throws the same shadow.
+Renderer::List Renderer::shadow_list(const Look& look) const {
+  if (look.shading == Shading::flat) return kHalfTriangles;
+  return device_.info().software && listed_.nx > kShadowCells + 1 ? kShadowMesh : kAllTriangles;
+}
+
 void Renderer::draw_shadows(VkCommandBuffer commands, const DrawBuffers& cloth, const Look& look) {
   device_.begin_label(commands, "shadow map");
   begin_attachment(commands, shadow_map_);
@@ -167,8 +174,7 @@ void Renderer::draw_shadows(VkCommandBuffer commands, const DrawBuffers& cloth, 
   if (look.wireframe)
     draw_cloth(commands, kShadowLines, kLines, cloth);
   else
-    draw_cloth(commands, kShadowTriangles, look.shading == Shading::flat ? kHalfTriangles : kAllTriangles,
-               cloth);
+    draw_cloth(commands, kShadowTriangles, shadow_list(look), cloth);
   if (ball_count_ > 0) draw_balls(commands, kShadowBalls);
   vkCmdEndRendering(commands);
 

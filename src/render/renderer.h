@@ -44,6 +44,9 @@ struct DrawCounts {
   std::uint32_t draws = 0;  ///< draw calls, shadow map included
 };
 
+/// Cells along the width that a software device's shadow shows.
+inline constexpr std::uint32_t kShadowCells = 128;
+
 /// 4 on a GPU and 1 on a software device; fewer where the device cannot.
 /// @throws Error(Exit::usage) when `wish` is not 0 (automatic), 1 or 4
 VkSampleCountFlagBits choose_samples(gpu::Device& device, std::uint32_t wish);
@@ -87,13 +90,21 @@ class Renderer {
     kSky,
     kKindCount
   };
-  enum List : std::uint32_t { kAllTriangles, kHalfTriangles, kLines, kBallTriangles, kListCount };
+  enum List : std::uint32_t {
+    kAllTriangles,
+    kHalfTriangles,
+    kShadowMesh,  // fewer triangles, where a device computes them one by one
+    kLines,
+    kBallTriangles,
+    kListCount
+  };
   struct Indices {
     gpu::Buffer buffer;
     std::uint32_t count = 0;
   };
 
   static std::string_view kind_name(Kind kind);
+  List shadow_list(const Look& look) const;
   DrawPipelineOptions describe(Kind kind) const;
   const DrawPipeline& pipeline(Kind kind);
   const Indices& indices(List list);

@@ -13,7 +13,7 @@ void Renderer::set_model(const Model& model) {
   stage_.bounds = scene_bounds(model);
   ball_count_ = ball_count(model);
   if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny) return;
-  for (const List list : {kAllTriangles, kHalfTriangles, kLines}) lists_[list] = {};
+  for (const List list : {kAllTriangles, kHalfTriangles, kShadowMesh, kLines}) lists_[list] = {};
   listed_ = model.grid;
 }
 
@@ -91,11 +91,13 @@ const Renderer::Indices& Renderer::indices(List list) {
   Indices& made = lists_[list];
   if (made.buffer) return made;
   constexpr std::array<const char*, kListCount> kNames{"cloth triangles", "cloth half triangles",
-                                                       "cloth lines", "ball triangles"};
+                                                       "shadow mesh", "cloth lines", "ball triangles"};
   const auto generate = [&] {
     switch (list) {
       case kAllTriangles: return cloth_triangles(model_->grid);
       case kHalfTriangles: return cloth_half_triangles(model_->grid);
+      case kShadowMesh:
+        return cloth_triangles_coarse(model_->grid, (model_->grid.nx + kShadowCells - 2) / kShadowCells);
       case kLines: return cloth_lines(model_->grid);
       default: return ball_triangles();
     }
