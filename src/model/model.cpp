@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "model/motion.h"
 #include "model/springs.h"
 #include "model/step_bound.h"
 
@@ -147,6 +148,7 @@ glm::dvec3 wind_at(const Scene& scene, double time_s) {
 }
 
 glm::dvec3 sphere_center_at(const SphereSection& sphere, double time_s) {
+  if (!sphere.keys.empty()) return place_at(sphere.keys, time_s);
   return sphere.center_m + time_s * sphere.velocity_m_s;
 }
 

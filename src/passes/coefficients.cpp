@@ -50,8 +50,11 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
   }
   for (const SphereSection& sphere : scene.spheres) {
     const glm::dvec3 end = sphere_center_at(sphere, row.drift_time_s + row.drift_s);
-    out.spheres.push_back({end, end - sphere_center_at(sphere, row.drift_time_s), sphere.velocity_m_s,
-                           sphere.radius_m + model.half_thickness_m, sphere.friction});
+    const glm::dvec3 travel = end - sphere_center_at(sphere, row.drift_time_s);
+    // A motion by keys may turn within a drift: the mean is what carries a particle from start to end.
+    const glm::dvec3 velocity =
+        sphere.keys.empty() || !(row.drift_s > 0.0) ? sphere.velocity_m_s : travel / row.drift_s;
+    out.spheres.push_back({end, travel, velocity, sphere.radius_m + model.half_thickness_m, sphere.friction});
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "model/motion.h"
 
 namespace weft {
 namespace {
@@ -37,8 +38,10 @@ double design_speed_m_s(const Model& model) {
   double speed_m_s = 1.0;
   if (scene.gravity) speed_m_s += std::sqrt(2.0 * glm::length(scene.gravity->acceleration_m_s2) * drop_m);
   if (scene.wind) speed_m_s += glm::length(scene.wind->velocity_m_s) * (1.0 + scene.wind->gust);
-  for (const SphereSection& sphere : scene.spheres)
-    speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * glm::length(sphere.velocity_m_s));
+  for (const SphereSection& sphere : scene.spheres) {
+    const double own_m_s = sphere.keys.empty() ? glm::length(sphere.velocity_m_s) : fastest_m_s(sphere.keys);
+    speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * own_m_s);
+  }
   return speed_m_s;
 }
 

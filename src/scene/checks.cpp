@@ -17,6 +17,7 @@ void check_required(const Draft& draft) {
     for (std::size_t item = 0; item < item_count(draft.scene, parameter.section); ++item) {
       const Target target{parameter.section, item};
       if (draft.is_given(target, parameter.key)) continue;
+      if (parameter.key == "center" && draft.is_given(target, "keys")) continue;  // the keys say it
       throw error(Exit::usage, "{}: {} is missing; it must be {} ({})", draft.place_of(target),
                   full_key(target, parameter.key), rule_text(parameter), parameter.example);
     }
@@ -67,6 +68,20 @@ void check_wind(const Draft& draft) {
                 short_number(kShortestPeriod_s));
 }
 
+/// What a motion's keys say already must not be said again beside them.
+void check_motion(const Draft& draft) {
+  for (std::size_t k = 0; k < draft.scene.spheres.size(); ++k) {
+    const Target target{"spheres", k};
+    if (draft.scene.spheres[k].keys.empty()) continue;
+    for (const char* key : {"center", "velocity"})
+      if (draft.is_given(target, key))
+        throw error(Exit::usage,
+                    "{}: {} stands beside spheres.{}.keys; it must be one or the other, since the keys say "
+                    "where the sphere is and how fast (remove {})",
+                    draft.place_of(target, key), full_key(target, key), k, key);
+  }
+}
+
 void check_spheres(const Draft& draft) {
   if (draft.scene.spheres.size() <= shared::kMaxSpheres) return;
   throw error(Exit::usage, "{}: there are {} spheres; it must be at most {} (remove some)",
@@ -81,6 +96,7 @@ void check_scene(const Draft& draft) {
   check_rows(draft);
   check_pins(draft);
   check_wind(draft);
+  check_motion(draft);
   check_spheres(draft);
 }
 

@@ -26,6 +26,7 @@ inline ParameterValue to_value(std::uint32_t field) { return static_cast<double>
 inline ParameterValue to_value(const std::string& field) { return field; }
 inline ParameterValue to_value(const glm::dvec2& field) { return field; }
 inline ParameterValue to_value(const glm::dvec3& field) { return field; }
+inline ParameterValue to_value(const MotionKeys& field) { return field; }
 inline ParameterValue to_value(const std::optional<double>& field) {
   return field.value_or(std::numeric_limits<double>::quiet_NaN());
 }

@@ -1,32 +1,13 @@
 // The rows of the parameter table. A new parameter is one member in scene.h and one row here.
 
 #include "scene/parameter_access.h"
+#include "scene/parameter_specials.h"
 #include "scene/parameters.h"
 
 namespace weft {
 namespace {
 
-using parameter_access::row;
-
-ParameterValue get_title(const Scene& scene, std::size_t) { return scene.title; }
-void set_title(Scene& scene, std::size_t, const ParameterValue& value) {
-  scene.title = std::get<std::string>(value);
-}
-
-ParameterValue get_shear(const Scene& scene, std::size_t) { return scene.material.shear(); }
-void set_shear(Scene& scene, std::size_t, const ParameterValue& value) {
-  scene.material.shear_n_m = std::get<double>(value);
-}
-
-ParameterValue get_substeps(const Scene& scene, std::size_t) {
-  if (scene.solver.substeps == 0) return std::string("auto");
-  return static_cast<double>(scene.solver.substeps);
-}
-void set_substeps(Scene& scene, std::size_t, const ParameterValue& value) {
-  const double* count = std::get_if<double>(&value);
-  scene.solver.substeps = count != nullptr ? static_cast<std::uint32_t>(*count) : 0;
-}
-
+using namespace parameter_access;
 using enum ParameterKind;
 
 // Ranges are as wide as the solvers are tested for, and no wider: a value outside is a slip of the keyboard
@@ -51,7 +32,6 @@ const Parameter kTable[] = {
                                                 .key = "width",
                                                 .minimum = 1e-3,
                                                 .maximum = 1000,
-
                                                 .unit = "m",
                                                 .about = "size of the cloth along i",
                                                 .example = "a flag: 1.5"}),
@@ -60,7 +40,6 @@ const Parameter kTable[] = {
          .key = "height",
          .minimum = 1e-3,
          .maximum = 1000,
-
          .unit = "m",
          .about = "size along j; the real height is the nearest whole number of square cells",
          .example = "a flag: 1.0"}),
@@ -262,7 +241,6 @@ const Parameter kTable[] = {
                                                     .key = "radius",
                                                     .minimum = 1e-4,
                                                     .maximum = 1000,
-
                                                     .required = true,
                                                     .slider_minimum = 0.02,
                                                     .slider_maximum = 1,
@@ -283,13 +261,23 @@ const Parameter kTable[] = {
                                                     .slider_maximum = 1,
                                                     .about = "Coulomb coefficient",
                                                     .example = "0.3"}),
+    {.section = "spheres",
+     .key = "keys",
+     .kind = keys,
+     .minimum = -kFarthest_m,
+     .maximum = kFarthest_m,
+     .unit = "m",
+     .about = "places of its centre in time, in place of center and velocity",
+     .example = "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0] }]",
+     .default_text = "none",
+     .get = get_sphere_keys,
+     .set = set_sphere_keys},
 
     row<&Scene::self_collision, &SelfCollisionSection::thickness_m>(
         {.section = "self_collision",
          .key = "thickness",
          .minimum = 1e-6,
          .maximum = 1,
-
          .required = true,
          .slider_minimum = 0.001,
          .slider_maximum = 0.02,

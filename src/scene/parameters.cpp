@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "scene/motion_keys.h"
 
 namespace weft {
 namespace {
@@ -100,6 +101,8 @@ bool is_allowed(const Parameter& p, const ParameterValue& value) {
   }
   if (const auto* two = std::get_if<glm::dvec2>(&value))
     return p.kind == vec2 && in_range(p, two->x) && in_range(p, two->y);
+  if (const auto* motion = std::get_if<MotionKeys>(&value))
+    return p.kind == keys && (motion->empty() || broken_motion(p, *motion).empty());
   const auto& three = std::get<glm::dvec3>(value);
   return p.kind == vec3 && in_range(p, three.x) && in_range(p, three.y) && in_range(p, three.z);
 }
@@ -137,6 +140,8 @@ std::string value_text(const ParameterValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return short_number(*number);
   if (const auto* two = std::get_if<glm::dvec2>(&value))
     return fmt::format("[{}, {}]", short_number(two->x), short_number(two->y));
+  if (const auto* motion = std::get_if<MotionKeys>(&value))
+    return motion->empty() ? std::string("none") : fmt::format("{} keys", motion->size());
   const auto& three = std::get<glm::dvec3>(value);
   return fmt::format("[{}, {}, {}]", short_number(three.x), short_number(three.y), short_number(three.z));
 }
@@ -153,6 +158,8 @@ std::string rule_text(const Parameter& p) {
   using enum ParameterKind;
   if (p.kind == word)
     return p.words.empty() ? "a word in quotes, printable and on one line" : words_text(p.words);
+  if (p.kind == keys)
+    return fmt::format("a list of keys {{ time = s, {} = [x, y, z] }}", motion_place_name(p));
   std::string text = range_text(p);
   if (p.kind == integer) text += ", a whole number";
   if (p.kind == vec2) text = "two numbers, each " + text;

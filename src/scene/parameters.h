@@ -12,10 +12,11 @@
 
 namespace weft {
 
-/// A parameter's value as text formats see it: number, three numbers, two numbers, or a word.
-using ParameterValue = std::variant<double, glm::dvec3, glm::dvec2, std::string>;
+/// A parameter's value as text formats see it: number, three numbers, two numbers, a word, or keys of a
+/// motion.
+using ParameterValue = std::variant<double, glm::dvec3, glm::dvec2, std::string, MotionKeys>;
 
-enum class ParameterKind { number, integer, vec2, vec3, word };
+enum class ParameterKind { number, integer, vec2, vec3, word, keys };
 
 struct Parameter {
   std::string_view section = {};  ///< "material"; for lists, "pins" or "spheres"; empty for "title"
@@ -71,6 +72,12 @@ std::string default_text(const Parameter&);
 
 /// The rule as messages show it, without "it must be": "2 to 4096", "0.001 to 100, in kg/m²".
 std::string rule_text(const Parameter&);
+
+/// How a key of the parameter's motion names its place: "center".
+std::string_view motion_place_name(const Parameter&);
+
+/// Between two keys nothing moves faster, so that a slip of the unit is caught [m/s].
+inline constexpr double kMotionFastest_m_s = 1000.0;
 
 /// Checks kind, range and finiteness. Empty when the value is allowed, else the rule it breaks with its cure:
 /// "it must be 2 to 4096 (40 draws well)". Sliders use it too.

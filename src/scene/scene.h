@@ -12,6 +12,15 @@ namespace weft {
 
 enum class Orientation { vertical, horizontal };
 
+/// Where something scripted is at one moment. From key to key it moves steadily; before the first and after
+/// the last it stands still.
+struct MotionKey {
+  double time_s = 0.0;
+  glm::dvec3 place_m{0.0};  ///< a sphere's centre
+  bool operator==(const MotionKey&) const = default;
+};
+using MotionKeys = std::vector<MotionKey>;
+
 struct ClothSection {
   double width_m = 1.0;
   double height_m = 1.0;
@@ -63,6 +72,7 @@ struct SphereSection {
   double radius_m = 0.0;  ///< required
   glm::dvec3 velocity_m_s{0.0};
   double friction = 0.0;
+  MotionKeys keys = {};  ///< of its centre; with keys, center_m is the first and velocity_m_s is not used
 };
 
 struct SelfCollisionSection {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/motion_keys.h"
 #include "scene/reader.h"
 
 namespace weft {
@@ -108,6 +109,11 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
 void Draft::set(const Target& target, std::string_view key, const toml::node& node, const Place& place) {
   const Parameter* parameter = find_parameter(target.section, key);
   if (parameter == nullptr) refuse_unknown_key(target, key, place);
+  if (parameter->kind == ParameterKind::keys) {
+    parameter->set(scene, target.item, read_motion(*parameter, full_key(target, key), node, place));
+    places_[key_id(target, key)] = place;
+    return;
+  }
   const auto value = value_of(*parameter, node);
   const auto wrong_type = ParameterValue(glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
   const std::string rule = broken_rule(*parameter, value.value_or(wrong_type));

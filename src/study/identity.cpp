@@ -17,6 +17,11 @@ struct ExactText {
     return (*this)(v.x) + "," + (*this)(v.y) + "," + (*this)(v.z);
   }
   std::string operator()(const std::string& v) const { return v; }
+  std::string operator()(const MotionKeys& keys) const {
+    std::string text;
+    for (const MotionKey& key : keys) text += (*this)(key.time_s) + ":" + (*this)(key.place_m) + ";";
+    return text;
+  }
 };
 
 /// Whether the motion depends on a key, whatever solver runs.
@@ -31,9 +36,11 @@ std::string canonical_scene(const Scene& scene) {
   std::string text;
   for (const Parameter& row : parameters()) {
     if (!moves_the_cloth(row) || !has_section(scene, row.section)) continue;
-    for (std::size_t item = 0; item < item_count(scene, row.section); ++item)
+    for (std::size_t item = 0; item < item_count(scene, row.section); ++item) {
+      if (row.kind == ParameterKind::keys && row.get(scene, item) == ParameterValue(MotionKeys{})) continue;
       text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key,
                           std::visit(ExactText{}, row.get(scene, item)));
+    }
   }
   return text;
 }

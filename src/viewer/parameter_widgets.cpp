@@ -79,6 +79,10 @@ bool edit_value(const Parameter& parameter, Scene& scene, std::size_t item, cons
     ImGui::LabelText(label.c_str(), "%s", word->empty() ? "none" : word->c_str());
     return false;
   }
+  if (std::holds_alternative<MotionKeys>(now)) {  // written in the file; here one sees that they are there
+    ImGui::LabelText(label.c_str(), "%s", value_text(now).c_str());
+    return false;
+  }
   if (const auto* number = std::get_if<double>(&now)) {
     double value = std::isfinite(*number) ? *number : 0.0;
     if (!edit_numbers(parameter, label, &value, 1)) return false;

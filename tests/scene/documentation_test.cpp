@@ -15,6 +15,7 @@ std::string type_text(const Parameter& p) {
   if (p.kind == ParameterKind::vec2) return "two numbers";
   if (p.kind == ParameterKind::vec3) return "three numbers";
   if (p.kind == ParameterKind::word) return "word";
+  if (p.kind == ParameterKind::keys) return "list of keys";
   const std::string number = p.kind == ParameterKind::integer ? "whole number" : "number";
   return p.words.empty() ? number : number + " or word";
 }

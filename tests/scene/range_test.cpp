@@ -42,7 +42,7 @@ std::string setting(const Parameter& p, const std::string& value) {
   return fmt::format("{}={}", key, value);
 }
 
-bool is_numeric(const Parameter& p) { return p.kind != ParameterKind::word; }
+bool is_numeric(const Parameter& p) { return p.kind != ParameterKind::word && p.kind != ParameterKind::keys; }
 
 std::string exact(double value) { return fmt::format("{}", value); }
 

@@ -1,0 +1,26 @@
+// Where something is between its keys.
+#include "model/motion.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace weft {
+
+glm::dvec3 place_at(const MotionKeys& keys, double time_s) {
+  const auto next = std::ranges::upper_bound(keys, time_s, {}, &MotionKey::time_s);
+  if (next == keys.begin()) return keys.front().place_m;
+  if (next == keys.end()) return keys.back().place_m;
+  const MotionKey &from = *(next - 1), &to = *next;
+  const double share = (time_s - from.time_s) / (to.time_s - from.time_s);
+  return from.place_m + share * (to.place_m - from.place_m);
+}
+
+double fastest_m_s(const MotionKeys& keys) {
+  double fastest = 0.0;
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    fastest = std::max(
+        fastest, glm::distance(keys[k].place_m, keys[k - 1].place_m) / (keys[k].time_s - keys[k - 1].time_s));
+  return fastest;
+}
+
+}  // namespace weft
