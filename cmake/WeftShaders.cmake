@@ -8,7 +8,7 @@ set(spirv_names "")
 # In double: every pass except the kernels that read texels, the compensated forms of float, and bench's copy.
 set(double_sources ${shader_sources})
 list(FILTER double_sources INCLUDE REGEX "/passes/")
-list(FILTER double_sources EXCLUDE REGEX "(_bands|_strip|_texel|_compensated|/copy)\\.comp$")
+list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensated|/copy)\\.comp$")
 list(TRANSFORM double_sources APPEND "+WEFT_F64")
 list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
 

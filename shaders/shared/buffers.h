@@ -32,6 +32,7 @@
   ROW(pair_places, 24, uint, "lists: entry k of particle p at k * particles + p")                \
   ROW(touch_count, 25, uint, "pairs nearer than their limit")                                    \
   ROW(draw_position, 26, vec4, "f64: position rounded to float, as it is drawn")                 \
-  ROW(draw_normal, 27, vec4, "f64: normal rounded to float, as it is drawn")
+  ROW(draw_normal, 27, vec4, "f64: normal rounded to float, as it is drawn")                     \
+  ROW(queue_heads, 28, uint, "kernel steal: workgroups done, then tiles taken of each queue")
 
 #endif

@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 
 constexpr std::array kFormats = {"human"sv, "json"sv, "csv"sv};
 constexpr std::array kPrecisions = {"f32"sv, "f32k"sv, "f64"sv};
-constexpr std::array kKernels = {"direct"sv, "texel"sv, "strip"sv, "bands"sv, "auto"sv, "all"sv};
+constexpr std::array kKernels = {"direct"sv, "texel"sv, "strip"sv, "steal"sv, "bands"sv, "auto"sv, "all"sv};
 constexpr std::array kShadings = {"smooth"sv, "flat"sv};
 
 /// The allowed range of a scene key, from the one table of parameters.
@@ -117,8 +117,8 @@ void add_shared_options(CLI::App& app, Options& o) {
   add_text(app, "--format", "human, json or csv", "NAME", [&o](const std::string& text) {
     o.format = static_cast<Format>(parse_word("--format", text, kFormats));
   });
-  add_text(app, "--kernel", "direct, texel, strip, bands, auto (the fastest, by trial), all (bench only)",
-           "NAME",
+  add_text(app, "--kernel",
+           "direct, texel, strip, steal, bands, auto (the fastest; default), all (bench only)", "NAME",
            [&o](const std::string& text) { o.kernel = kKernels[parse_word("--kernel", text, kKernels)]; });
   add_text(app, "--shaders", "compile the shaders of this folder instead of the built-in ones", "DIR",
            [&o](const std::string& text) { o.shaders = checked_folder(text); });

@@ -41,7 +41,7 @@ struct Options {
   std::optional<double> time_s;             ///< `--time`
   std::optional<double> error_m;            ///< `--error`: choose the cheapest setting below it
   std::optional<double> budget_ms;          ///< `--budget`: choose the most accurate within it, ms a frame
-  std::string kernel;                       ///< `--kernel`; empty: WEFT_KERNEL, else direct
+  std::string kernel;                       ///< `--kernel`; empty: WEFT_KERNEL, else auto
   std::filesystem::path shaders;            ///< `--shaders`; empty: the embedded modules
   Format format = Format::human;
   bool validation = false, force_staging = false, quiet = false, verbose = false, check = false;

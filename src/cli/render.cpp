@@ -130,7 +130,7 @@ Exit run_render(const Options& asked) {
   const double run_s = o.time_or_default_s();
   stop_between_frames();
   Film film(o, setup, run_s);
-  Machine machine = start(o, setup);
+  Machine machine = start(o, setup, run_s);
   if (!machine.device) machine.device = drawing_device(o);
   Outcome outcome;
   {

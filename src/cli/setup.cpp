@@ -67,7 +67,7 @@ std::unique_ptr<gpu::Device> open_device(const Options& o) {
 
 std::string device_label(const gpu::DeviceInfo& info) { return info.label(); }
 
-Machine start(const Options& o, const Setup& setup) {
+Machine start(const Options& o, const Setup& setup, double run_s) {
   Machine machine;
   if (o.on_cpu()) {
     machine.simulation = make_cpu_simulation(setup.model, *setup.solver, setup.scene().solver.precision);
@@ -75,7 +75,12 @@ Machine start(const Options& o, const Setup& setup) {
     return machine;
   }
   machine.device = open_device(o);
-  auto on_gpu = GpuSimulation::create(*machine.device, setup.model, *setup.solver, {.kernel = o.kernel});
+  const Plan plan = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
+  const double substeps = run_s / setup.scene().solver.frame_s * plan.substeps;
+  const bool long_run = expected_work_s(*machine.device, plan, substeps) >= kWorthTrying_s;
+  auto on_gpu = GpuSimulation::create(
+      *machine.device, setup.model, *setup.solver,
+      {.kernel = o.kernel, .trial = long_run ? KernelTrial::allowed : KernelTrial::when_named});
   machine.on_gpu = on_gpu.get();
   machine.simulation = std::move(on_gpu);
   machine.device_label = device_label(machine.device->info());

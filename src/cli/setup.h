@@ -50,7 +50,8 @@ std::unique_ptr<gpu::Device> open_device(const Options&);
 std::string device_label(const gpu::DeviceInfo&);
 
 /// Builds the simulation on the CPU or on a Vulkan device.
-Machine start(const Options&, const Setup&);
+/// @param run_s  simulated time that it will run: a long one is worth a trial of the kernels
+Machine start(const Options&, const Setup&, double run_s);
 
 /// Prints validation messages on stderr.
 /// @throws Error(Exit::internal) when there is any: it is a mistake in Weft

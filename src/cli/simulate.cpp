@@ -87,19 +87,22 @@ Outcome simulate_scene(const Options& o, Simulation& simulation, double run_s, F
   return outcome;
 }
 
-/// What was recorded and allocated, beside what the plan says of a full frame.
+/// What was recorded and allocated, beside what the plan, run by its kernel, says of a full frame.
 void print_details(const Machine& machine, const Outcome& outcome) {
   const Plan& plan = machine.simulation->plan();
+  const GpuSimulation* device = machine.on_gpu;
+  const std::uint64_t dispatches =
+      device != nullptr ? device->dispatches_expected(plan.substeps) : plan.dispatches();
+  const std::uint64_t bytes = device != nullptr ? device->bytes_expected() : plan.bytes();
   std::cerr << fmt::format(
                    "weft: dispatches recorded {} in a frame of {} substeps; plan: {} in a frame of {}\n",
-                   outcome.frame.dispatches, outcome.frame.substeps, plan.dispatches(), plan.substeps)
+                   outcome.frame.dispatches, outcome.frame.substeps, dispatches, plan.substeps)
             << fmt::format("weft: bytes allocated {}; plan: {}\n", machine.simulation->bytes_allocated(),
-                           plan.bytes());
-  if (machine.on_gpu == nullptr) return;
-  const GpuSimulation& device = *machine.on_gpu;
-  std::cerr << fmt::format("weft: kernel {}: {} dispatches in a frame of {}, {} bytes\n",
-                           describe(device.kernel()), device.dispatches_expected(plan.substeps),
-                           plan.substeps, device.bytes_expected());
+                           bytes);
+  if (device == nullptr) return;
+  std::cerr << fmt::format(
+      "weft: kernel {}; with one dispatch a substep and no scratch it would be {} dispatches and {} bytes\n",
+      describe(device->kernel()), plan.dispatches(), plan.bytes());
 }
 
 /// Says what self-collision did; false when pairs found no room in its lists.
@@ -127,7 +130,7 @@ Exit run_simulate(const Options& asked) {
   std::unique_ptr<StateOutput> output;
   stop_between_frames();
   if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model);
-  Machine machine = start(o, setup);
+  Machine machine = start(o, setup, run_s);
   FrameWatch watch(o, setup, run_s, output.get(), look_every(machine));
   const Outcome outcome = simulate_scene(o, *machine.simulation, run_s, watch);
   report_validation(machine.device.get());

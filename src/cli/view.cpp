@@ -20,6 +20,7 @@ Exit run_view(const Options& o) {
   window.overrides =
       overrides_of(with_chosen_setting(o, window.scene, [&](const Scene&) { return o.time_or_default_s(); }));
   window.device = o.device;
+  window.kernel = o.kernel;
   window.validation = o.validation;
   window.force_staging = o.force_staging;
   window.shader_dir = o.shaders;

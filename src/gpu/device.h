@@ -25,6 +25,8 @@ struct DeviceInfo {
   bool wireframe = false;  ///< fillModeNonSolid
   bool wide_lines = false;
   bool anisotropy = false;  ///< samplerAnisotropy
+  std::uint32_t subgroup_size = 0;
+  bool subgroup_ballot = false;  ///< elections and ballots in compute shaders
   std::uint64_t memory_bytes = 0;
   std::string unusable;  ///< why it cannot run Weft; empty when it can
   /// "llvmpipe (software)": the name, and plainly said when it is no GPU.

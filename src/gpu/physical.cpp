@@ -82,6 +82,16 @@ std::string examine_features(VkPhysicalDevice physical, DeviceInfo& info) {
   return lacks.empty() ? "" : "its driver lacks " + lacks;
 }
 
+void examine_subgroups(VkPhysicalDevice physical, DeviceInfo& info) {
+  VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  constexpr VkSubgroupFeatureFlags kWanted = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  info.subgroup_size = subgroups.subgroupSize;
+  info.subgroup_ballot = (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                         (subgroups.supportedOperations & kWanted) == kWanted;
+}
+
 Candidate examine(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
@@ -100,6 +110,7 @@ Candidate examine(VkPhysicalDevice physical) {
     info.unusable = fmt::format("its driver offers Vulkan {}; 1.3 is needed", info.api_version);
   else
     info.unusable = examine_features(physical, info);
+  if (info.unusable.empty()) examine_subgroups(physical, info);
   if (info.unusable.empty() && !family) info.unusable = "none of its queues can do both graphics and compute";
   return candidate;
 }

@@ -79,9 +79,12 @@ GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan
                           slots > 1 ? gpu::Memory::upload : gpu::Memory::device);
     }
   }
-  if (const std::uint64_t bytes = scratch_bytes(kernel, plan); bytes > 0)
-    buffers_[BufferId::band_scratch].emplace_back(device, "band_scratch", bytes,
-                                                  usage_of(BufferId::band_scratch), gpu::Memory::device);
+  if (const std::optional<KernelScratch> scratch = scratch_of(kernel, plan)) {
+    const std::string name(row_of(scratch->id).name);
+    gpu::Buffer& made = buffers_[scratch->id].emplace_back(device, name, scratch->bytes,
+                                                           usage_of(scratch->id), gpu::Memory::device);
+    if (scratch->id == BufferId::queue_heads) made.write(std::vector<std::byte>(scratch->bytes));
+  }
 }
 
 gpu::Buffer& GpuBuffers::at(BufferId id, std::uint32_t slot) {
@@ -132,6 +135,11 @@ GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const Pla
   const std::uint32_t strips = (step.range.x + kernel.columns - 1) / kernel.columns;
   if (step.pass == &integrate && several)
     return {name + "_bands.comp", {kernel.columns, kernel.substeps, local(strips)}, kernel.columns, 0};
+  if (step.pass == &integrate && kernel.kind == KernelKind::steal)
+    return {name + "_steal.comp",
+            {kernel.columns, kernel.rows, device.info().subgroup_size},
+            kernel.columns,
+            kernel.rows};
   if (step.pass == &integrate && kernel.kind >= KernelKind::strip) {
     const std::uint32_t wide = device.info().software ? 64 / kernel.columns : 64;
     return {name + "_strip.comp",
@@ -165,6 +173,7 @@ GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step,
   const Variant variant = variant_for(device, step, kernel_, several, doubles_);
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
+  if (step.pass == &integrate && kernel_.kind == KernelKind::steal) return {pipeline, kernel_.queues, 1};
   const auto& local = pipelines_[pipeline].pipeline->reflection().local_size;
   const std::uint32_t columns = local[0] * variant.columns, rows = local[1] * variant.rows;
   return {pipeline, (step.range.x + columns - 1) / columns, (step.range.y + rows - 1) / rows};

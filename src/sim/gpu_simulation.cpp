@@ -53,7 +53,7 @@ class VulkanSimulation final : public GpuSimulation {
         perturbation_(options.perturb, plan_),
         program_plan_(perturbed(plan_, perturbation_)),
         pipelines_(options.pipelines ? options.pipelines : std::make_shared<GpuPipelines>(device)),
-        choice_(choose_kernel(device, model_, program_plan_, pipelines_, options.kernel)),
+        choice_(choose_kernel(device, model_, program_plan_, pipelines_, options.kernel, {}, options.trial)),
         buffers_(device, model_, plan_, choice_.kernel),
         program_(device, program_plan_, buffers_, pipelines_, choice_.kernel),
         commands_(device, plan_, program_),

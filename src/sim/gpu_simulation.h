@@ -25,7 +25,9 @@ struct GpuSimulationOptions {
   std::uint32_t dispatches_per_submit = 0;  ///< 0: measured, so that a submit stays under about 50 ms
   std::string perturb;                      ///< "pass.constant" to falsify (perturb.h); empty: none
   std::shared_ptr<GpuPipelines> pipelines;  ///< shared with the simulation before this one; empty: its own
-  std::string kernel;  ///< one of kernel_names(); empty: WEFT_KERNEL, else direct (choose_kernel)
+  std::string kernel;  ///< one of kernel_names(); empty: WEFT_KERNEL, else auto (choose_kernel)
+  KernelTrial trial =
+      KernelTrial::when_named;  ///< allowed: this run is long enough to time the kernels first
 };
 
 /// A pinned particle that something outside the plan moves: a hand.

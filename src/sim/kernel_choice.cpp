@@ -106,12 +106,16 @@ bool is_candidate(const gpu::Device& device, const Plan& plan, const Kernel& ker
 }
 
 KernelChoice automatic(gpu::Device& device, const Model& model, const Plan& plan,
-                       std::shared_ptr<GpuPipelines> pipelines, const std::filesystem::path& file) {
+                       std::shared_ptr<GpuPipelines> pipelines, const std::filesystem::path& file,
+                       bool may_try) {
   const std::vector<KernelCandidate> candidates = kernel_candidates(device, plan);
   if (candidates.size() == 1) return {candidates[0].kernel, "default", {}, {}};
   const std::string key = kernel_memory_key(plan);
   const auto remembered = file.empty() ? std::nullopt : remembered_kernel(file, key);
   if (remembered && is_candidate(device, plan, *remembered)) return {*remembered, "remembered", {}, {}};
+  if (!may_try) return {untried_kernel(device, plan), "default", {}, {}};
+  require_fits(device, model, plan);
+  if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   KernelChoice choice = tried(device, model, plan, std::move(pipelines));
   if (!file.empty()) remember_kernel(file, key, choice.kernel);
   return choice;
@@ -119,16 +123,20 @@ KernelChoice automatic(gpu::Device& device, const Model& model, const Plan& plan
 
 }  // namespace
 
+double expected_work_s(const gpu::Device& device, const Plan& plan, double substeps) {
+  const double ns = device.info().software ? 20.0 : 0.2;  // a particle·substep; docs/performance.md
+  const Range& range = plan.steps.at(0).range;
+  return substeps * range.x * range.y * ns * 1e-9;
+}
+
 KernelChoice choose_kernel(gpu::Device& device, const Model& model, const Plan& plan,
                            std::shared_ptr<GpuPipelines> pipelines, std::string name,
-                           std::filesystem::path file) {
+                           std::filesystem::path file, KernelTrial trial) {
   if (const char* wish = std::getenv("WEFT_KERNEL"); name.empty() && wish != nullptr) name = wish;
-  if (name.empty()) return {direct_kernel(device, plan), "default", {}, {}};
-  if (name != "auto") return {named_kernel(device, plan, name), "forced", {}, {}};
+  if (!name.empty() && name != "auto") return {named_kernel(device, plan, name), "forced", {}, {}};
   if (file.empty()) file = kernel_memory_file(device);
-  require_fits(device, model, plan);
-  if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
-  return automatic(device, model, plan, std::move(pipelines), file);
+  const bool may_try = trial == KernelTrial::allowed || (trial == KernelTrial::when_named && !name.empty());
+  return automatic(device, model, plan, std::move(pipelines), file, may_try);
 }
 
 std::filesystem::path kernel_memory_file(gpu::Device& device) {

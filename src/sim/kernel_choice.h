@@ -23,15 +23,27 @@ struct KernelChoice {
   std::vector<KernelCandidate> out;  ///< what could not be tried, with the reason
 };
 
-/// @param name  one of kernel_names(); empty: the environment's WEFT_KERNEL, else "direct", so that what is
-///              not asked for does not depend on timings
+/// Whether "auto", where nothing is remembered, may time the candidates first: always, only when it was asked
+/// for by that name, or never (a window must not stall).
+enum class KernelTrial { allowed, when_named, never };
+
+/// A trial takes a second or two; work that is done in less is better begun at once.
+inline constexpr double kWorthTrying_s = 2.0;
+
+/// About how long `substeps` substeps take on the device [s], before anything was measured.
+double expected_work_s(const gpu::Device&, const Plan&, double substeps);
+
+/// @param name  one of kernel_names(); empty: the environment's WEFT_KERNEL, else "auto". All kernels end in
+///              the same bits, so the choice changes no result
+/// @param trial  where none is made, what is not remembered is untried_kernel()
 /// "auto" takes what an earlier trial of this device, driver, size and set of constants found, kept beside
 /// the pipeline cache; without one it times the candidates on buffers of its own and keeps the result. The
 /// trial starts no candidate after half a second, so that slow compilers do not hold up a start.
 /// @param file  where trials are kept; empty: kernel_memory_file()
 /// @throws Error(Exit::usage) for an unknown name or a kernel that does not fit
 KernelChoice choose_kernel(gpu::Device&, const Model&, const Plan&, std::shared_ptr<GpuPipelines>,
-                           std::string name = {}, std::filesystem::path file = {});
+                           std::string name = {}, std::filesystem::path file = {},
+                           KernelTrial trial = KernelTrial::allowed);
 
 /// Beside the pipeline cache, one a device and driver; empty where there is no cache folder.
 std::filesystem::path kernel_memory_file(gpu::Device&);

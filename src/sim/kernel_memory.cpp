@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kVersion = 1;  // of the file, and of the kernels it speaks of
+constexpr int kVersion = 2;  // of the file, and of the kernels it speaks of
 constexpr std::size_t kMostBytes = 1 << 20;
 
 /// The file's content, or a fresh one when there is none that can be used.
@@ -52,6 +52,7 @@ std::optional<Kernel> remembered_kernel(const std::filesystem::path& file, const
     entry->at("rows").get_to(kernel.rows);
     entry->at("substeps").get_to(kernel.substeps);
     entry->at("bands").get_to(kernel.bands);
+    entry->at("queues").get_to(kernel.queues);
     return kernel;
   } catch (const Json::exception&) {
     return {};
@@ -64,7 +65,8 @@ void remember_kernel(const std::filesystem::path& file, const std::string& key, 
                           {"columns", kernel.columns},
                           {"rows", kernel.rows},
                           {"substeps", kernel.substeps},
-                          {"bands", kernel.bands}};
+                          {"bands", kernel.bands},
+                          {"queues", kernel.queues}};
   std::error_code problem;
   std::filesystem::create_directories(file.parent_path(), problem);
   try {

@@ -85,7 +85,7 @@ Application::Application(const ViewerOptions& options)
       surface_(allowed(device_), window_),
       swapchain_(device_, surface_, options.present_mode),
       ui_scale_(content_scale(window_)),
-      running_(device_, options.overrides, options.scene),
+      running_(device_, options.overrides, options.scene, options.kernel),
       gui_(device_, window_, swapchain_, ui_scale_),
       painter_(device_, swapchain_, gui_, options.samples),
       controls_(window_, gui_),
@@ -206,6 +206,7 @@ void Application::handle_panels(const PanelWishes& wishes) {
     if (wishes.speed) running_.pacer().set_speed(*wishes.speed);
     if (wishes.scale)
       painter_.set_scale(*wishes.scale > 0.0 ? *wishes.scale : painter_.scale(), *wishes.scale <= 0.0);
+    if (wishes.kernel) running_.set_kernel(*wishes.kernel);
     if (wishes.present_mode) swapchain_.set_present_mode(*wishes.present_mode);
     if (wishes.material) {
       const std::string text = fmt::format("[cloth]\n[material]\npreset = \"{}\"\n", *wishes.material);
@@ -349,6 +350,7 @@ PanelFacts Application::facts() const {
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
   facts.costs = &costs_;
+  facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
   if (facts.validating) facts.validation_messages = device_.validation_messages().size();
   return facts;
 }

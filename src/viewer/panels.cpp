@@ -88,6 +88,19 @@ bool substeps_slider(Scene& scene, std::uint32_t running) {
   return changed;
 }
 
+void kernel_choice(const RunningScene& running, const PanelFacts& facts, PanelWishes& wishes) {
+  const std::string& asked = running.kernel();
+  const std::string running_now = describe(running.simulation().kernel().kernel);
+  const std::string shown = asked == "auto" ? "auto: " + running_now : running_now;
+  if (ImGui::BeginCombo("kernel", shown.c_str())) {
+    if (ImGui::Selectable("auto", asked == "auto")) wishes.kernel = "auto";
+    for (const std::string& name : facts.kernels)
+      if (ImGui::Selectable(name.c_str(), name == asked)) wishes.kernel = name;
+    ImGui::EndCombo();
+  }
+  tooltip("how the device computes a substep; all end in the same bits and differ in speed");
+}
+
 void scene_buttons(const RunningScene& running, const PanelFacts& facts, PanelWishes& wishes) {
   for (std::size_t k = 0; k < std::min<std::size_t>(facts.scenes.size(), 6); ++k) {
     if (k > 0) ImGui::SameLine();
@@ -238,6 +251,7 @@ void Panels::settings(const RunningScene& running, const Scene& pending, const P
   ImGui::Separator();
   quick_sliders(edited, changed, facts, wishes);
   changed |= substeps_slider(edited, running.simulation().plan().substeps);
+  kernel_choice(running, facts, wishes);
   if (ImGui::CollapsingHeader("All parameters")) all_parameters(edited, changed, facts, wishes);
   if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen))
     picture_controls(facts, view, wishes);

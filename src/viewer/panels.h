@@ -22,6 +22,7 @@ struct PanelWishes {
   std::optional<double> speed;
   std::optional<double> scale;  ///< of the drawn picture; 0: automatic
   std::optional<std::string> present_mode;
+  std::optional<std::string> kernel;  ///< "auto" or one of PanelFacts::kernels
   bool measure_effects = false, stop_measuring = false;
   std::array<float, 4> resolution_slider{};  ///< left, top, right, bottom [screen units]; for tests
 };
@@ -37,6 +38,7 @@ struct PanelFacts {
   std::uint32_t samples = 1;
   std::string present_mode;
   std::vector<std::string> present_modes;
+  std::vector<std::string> kernels;  ///< that fit the device and the cloth
   std::vector<AssetInfo> scenes, materials;
   bool validating = false;
   std::size_t validation_messages = 0;

@@ -21,11 +21,21 @@ bool same_start(const ClothSection& a, const ClothSection& b) {
          a.orientation == b.orientation && a.center_m == b.center_m && a.imperfection_m == b.imperfection_m;
 }
 
+/// A name that is none is said at once; whether the kernel fits is seen scene by scene.
+std::string kernel_or_auto(std::string name) {
+  if (name.empty()) return "auto";
+  if (std::ranges::find(kernel_names(), name) == kernel_names().end())
+    throw error(Exit::usage, "kernel is \"{}\"; it must be one of {}", name, fmt::join(kernel_names(), ", "));
+  return name;
+}
+
 }  // namespace
 
-RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const std::string& which)
+RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const std::string& which,
+                           std::string kernel)
     : device_(device),
       overrides_(std::move(overrides)),
+      kernel_(kernel_or_auto(std::move(kernel))),
       pipelines_(std::make_shared<GpuPipelines>(device)),
       pacer_(1.0 / 60.0) {
   open(which);
@@ -89,16 +99,14 @@ Scene RunningScene::composed(const Scene& scene) const {
 void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   const Clock::time_point start = Clock::now();
   const Model model = build_model(composed(next));
-  const Solver& solver = find_solver(next.solver.name);
   const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth);
   figures_.kept_plan = same && !anew && simulation_->adopt(model);
   if (!figures_.kept_plan) {
     std::optional<State> state;
     if (keep_state) state = carry_state(simulation_->model(), simulation_->read(), model);
-    std::unique_ptr<GpuSimulation> made =
-        GpuSimulation::create(device_, model, solver, {.pipelines = pipelines_});
-    if (state) made->write(*state);
-    simulation_ = std::move(made);
+    std::unique_ptr<GpuSimulation> next_one = made(model);
+    if (state) next_one->write(*state);
+    simulation_ = std::move(next_one);
     ++version_;
   }
   scene_ = next;
@@ -112,6 +120,30 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   watched_.reset();
   if (!keep_state) begin_again();
   figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
+}
+
+std::unique_ptr<GpuSimulation> RunningScene::made(const Model& model) const {
+  const Solver& solver = find_solver(model.scene.solver.name);
+  GpuSimulationOptions options{
+      .pipelines = pipelines_, .kernel = kernel_ == "auto" ? "" : kernel_, .trial = KernelTrial::never};
+  if (!options.kernel.empty() && solver.on_gpu) {
+    const Plan plan = compile_plan(model, solver, model.scene.solver.precision);
+    const std::vector<std::string> fitting = fitting_kernel_names(device_, plan);
+    if (std::ranges::find(fitting, options.kernel) == fitting.end()) options.kernel = "auto";
+  }
+  return GpuSimulation::create(device_, model, solver, options);
+}
+
+void RunningScene::set_kernel(const std::string& name) {
+  if (name != "auto") named_kernel(device_, simulation_->plan(), name);
+  const std::string before = std::exchange(kernel_, kernel_or_auto(name));
+  release();
+  try {
+    adopt(scene_, true, true);
+  } catch (...) {
+    kernel_ = before;
+    throw;
+  }
 }
 
 void RunningScene::begin_again() {
@@ -154,10 +186,9 @@ void RunningScene::grab(const State& state, const Pick& pick) {
   with_hand.pins.push_back(Hand::pin(before.grid, pick.particle));
   const Model held = build_model(with_hand);
   if (!simulation_->adopt(held)) {
-    auto made =
-        GpuSimulation::create(device_, held, find_solver(scene_.solver.name), {.pipelines = pipelines_});
-    made->write(state);
-    simulation_ = std::move(made);
+    auto with_pin = made(held);
+    with_pin->write(state);
+    simulation_ = std::move(with_pin);
     ++version_;
   }
   mid_frame_ = false;

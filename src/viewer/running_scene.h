@@ -39,8 +39,9 @@ struct HandPin {
 
 class RunningScene {
  public:
+  /// @param kernel  one of kernel_names(), or empty for auto; auto takes what is remembered and tries nothing
   /// @throws Error as load_scene and GpuSimulation::create do
-  RunningScene(gpu::Device&, SceneOverrides overrides, const std::string& which);
+  RunningScene(gpu::Device&, SceneOverrides overrides, const std::string& which, std::string kernel = {});
 
   /// Opens another scene at its start.
   void open(const std::string& which);
@@ -50,6 +51,11 @@ class RunningScene {
   void reset();
   /// Changes the scene while it runs; the state is carried over.
   void apply(const Scene& next);
+  /// Goes on with another kernel of the pass `integrate`; the state is carried over. One that does not fit a
+  /// later scene or resolution gives way to auto there.
+  /// @throws Error(Exit::usage), changing nothing, when the name is none or the kernel does not fit now
+  void set_kernel(const std::string& name);
+  const std::string& kernel() const { return kernel_; }  ///< asked for: "auto", or a name
   /// Pins the cloth around a particle where it is now, or removes every pin that holds it.
   /// @param place_m  where that particle is, for the mark that is drawn there
   void toggle_pin(std::uint32_t particle, const glm::dvec3& place_m);
@@ -103,6 +109,7 @@ class RunningScene {
   Scene composed(const Scene& scene) const;
   /// @param anew  build every pipeline again, even for the same plan
   void adopt(const Scene& next, bool keep_state, bool anew = false);
+  std::unique_ptr<GpuSimulation> made(const Model& model) const;
   void begin_again();
   void begin_piece();
   bool continue_frame();
@@ -111,6 +118,7 @@ class RunningScene {
 
   gpu::Device& device_;
   SceneOverrides overrides_;
+  std::string kernel_;
   std::string which_;
   Scene scene_;
   Model shown_;

@@ -33,16 +33,23 @@ TEST(Device, SimulatesAndNamesTheDevice) {
   EXPECT_EQ(device.find("(software)") != std::string::npos, devices[0]["software"].get<bool>());
 }
 
+// A kernel may take several substeps into a dispatch and have a scratch: the counts are held against the plan
+// as that kernel runs it, and the plan itself is named beside them.
 TEST(Device, RecordsAndAllocatesWhatThePlanSays) {
   NEEDS_VULKAN();
-  const Result result = weft(on_device("simulate", {"--time", "0.1", "-v"}));
-  EXPECT_CODE(result, 0);
-  const auto dispatches = recorded_and_planned(result.err, "dispatches recorded ");
-  EXPECT_EQ(dispatches.first, dispatches.second) << result.err;
-  const auto bytes = recorded_and_planned(result.err, "bytes allocated ");
-  EXPECT_EQ(bytes.first, bytes.second) << result.err;
   const Json plan = Json::parse(weft(on_device("plan", {"--format", "json"})).out);
-  EXPECT_EQ(plan["bytes"].get<long>(), bytes.second);
+  for (const char* kernel : {"auto", "direct", "steal", "bands"}) {
+    const Result result = weft(on_device("simulate", {"--time", "0.1", "-v", "--kernel", kernel}));
+    EXPECT_CODE(result, 0);
+    const auto dispatches = recorded_and_planned(result.err, "dispatches recorded ");
+    EXPECT_EQ(dispatches.first, dispatches.second) << result.err;
+    const auto bytes = recorded_and_planned(result.err, "bytes allocated ");
+    EXPECT_EQ(bytes.first, bytes.second) << result.err;
+    EXPECT_SAYS(result.err, std::to_string(plan["bytes"].get<long>()) + " bytes\n");
+    if (kernel == std::string("direct")) {
+      EXPECT_EQ(plan["bytes"].get<long>(), bytes.second);
+    }
+  }
 }
 
 TEST(Device, IsChosenByIndexByPartOfItsNameAndByUuid) {

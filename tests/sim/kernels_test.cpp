@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOthers[] = {"texel", "strip", "bands"};
+constexpr const char* kOthers[] = {"texel", "strip", "steal", "bands"};
 
 class KernelsTest : public GpuTest {
  protected:
@@ -130,7 +130,7 @@ TEST_F(KernelsTest, equal_the_direct_one_for_every_candidate) {
 
 TEST_F(KernelsTest, record_and_allocate_what_they_say) {
   const Model model = full_model("\n[solver]\nsubsteps = 57\n");
-  for (const char* kernel : {"direct", "texel", "strip", "bands"}) {
+  for (const char* kernel : {"direct", "texel", "strip", "steal", "bands"}) {
     const auto simulation = with(model, kernel);
     const Plan& plan = simulation->plan();
     const FrameStats stats = simulation->advance(model.scene.solver.frame_s, 57);
@@ -141,6 +141,10 @@ TEST_F(KernelsTest, record_and_allocate_what_they_say) {
     if (kernel == std::string("bands")) {
       EXPECT_EQ(stats.dispatches, 15u + 2u);  // ceil(57 / 4), closing kick, normals
       EXPECT_GT(simulation->bytes_expected(), plan.bytes());
+    } else if (kernel == std::string("steal")) {
+      EXPECT_EQ(stats.dispatches, plan.dispatches());
+      EXPECT_EQ(simulation->bytes_expected(),
+                plan.bytes() + 64 * (simulation->kernel().kernel.queues + 1));  // a cache line a head
     } else {
       EXPECT_EQ(stats.dispatches, plan.dispatches()) << kernel;
       EXPECT_EQ(simulation->bytes_expected(), plan.bytes()) << kernel;
@@ -165,21 +169,55 @@ class KernelChoiceTest : public KernelsTest {
     KernelsTest::SetUp();
     fs::remove(file_);
   }
-  KernelChoice choose(const std::string& name) {
-    return choose_kernel(device(), model_, plan_, pipelines(), name, file_);
+  KernelChoice choose(const std::string& name, KernelTrial trial = KernelTrial::allowed) {
+    return choose_kernel(device(), model_, plan_, pipelines(), name, file_, trial);
   }
   fs::path file_ = fs::path(WEFT_BINARY_DIR) / "test-cache" / "kernel-choice.json";
   Model model_ = full_model();
   Plan plan_ = compile_plan(model_, find_solver("leapfrog"));
 };
 
-TEST_F(KernelChoiceTest, is_direct_unless_something_else_is_asked_for) {
-  EXPECT_EQ(choose("").how, "default");
-  EXPECT_EQ(choose("").kernel.kind, KernelKind::direct);
+TEST_F(KernelChoiceTest, tries_nothing_where_no_trial_is_allowed) {
+  const Kernel untried = untried_kernel(device(), plan_);
+  EXPECT_EQ(untried.kind, KernelKind::steal);  // of a software device
+  EXPECT_EQ(choose("", KernelTrial::when_named).how, "default");
+  EXPECT_EQ(choose("", KernelTrial::when_named).kernel, untried);
+  EXPECT_EQ(choose("auto", KernelTrial::never).kernel, untried);
   const ScopedEnvironment wish("WEFT_KERNEL", "texel");
-  EXPECT_EQ(choose("").kernel.kind, KernelKind::texel);
+  EXPECT_EQ(choose("", KernelTrial::when_named).kernel.kind, KernelKind::texel);
   EXPECT_EQ(choose("strip").kernel.kind, KernelKind::strip);  // a name given wins
   EXPECT_FALSE(fs::exists(file_));
+}
+
+TEST_F(KernelChoiceTest, without_a_name_is_what_an_earlier_trial_found) {
+  const Kernel texel = named_kernel(device(), plan_, "texel");
+  remember_kernel(file_, kernel_memory_key(plan_), texel);
+  for (const KernelTrial trial : {KernelTrial::allowed, KernelTrial::when_named, KernelTrial::never}) {
+    EXPECT_EQ(choose("", trial).how, "remembered");
+    EXPECT_EQ(choose("", trial).kernel, texel);
+  }
+  fs::remove(file_);
+  EXPECT_EQ(choose("", KernelTrial::allowed).how, "trial");
+}
+
+// llvmpipe ends all loops of an invocation after 65 535 turns: no workgroup may take so many tiles, and all
+// together must be able to take every one.
+TEST_F(KernelChoiceTest, lets_no_workgroup_of_steal_run_into_the_limit_of_loops) {
+  for (const std::uint32_t n : {2u, 64u, 700u, 2896u}) {
+    const Model model = build_model(
+        parse_scene(fmt::format("[cloth]\nresolution = {}\n[solver]\nsubsteps = 9\n", n), "n.toml").scene);
+    const Plan plan = compile_plan(model, find_solver("leapfrog"));
+    for (const KernelCandidate& candidate : kernel_candidates(device(), plan)) {
+      const Kernel& kernel = candidate.kernel;
+      if (kernel.kind != KernelKind::steal) continue;
+      const std::uint64_t wide = kernel.columns * device().info().subgroup_size;
+      const std::uint64_t tiles = (n + wide - 1) / wide * ((n + kernel.rows - 1) / kernel.rows);
+      const std::uint64_t in_queue = (tiles + kernel.queues - 1) / kernel.queues;
+      EXPECT_LT(2 * in_queue * (kernel.rows + 1) + 2 * kernel.queues, 65'535u)
+          << describe(kernel) << ", " << n;
+      EXPECT_GE(kernel.queues * 2 * in_queue, tiles);
+    }
+  }
 }
 
 TEST_F(KernelChoiceTest, is_tried_once_and_then_remembered) {
@@ -198,8 +236,8 @@ TEST_F(KernelChoiceTest, does_not_trust_a_file_that_is_damaged_or_names_what_is_
   const std::string key = kernel_memory_key(plan_);
   for (const std::string& damaged :
        {std::string("{"), std::string(), std::string("[1, 2]"), std::string("{\"version\": 99}"),
-        std::string("{\"version\": \"1\", \"kernels\": 5}"),
-        "{\"version\": 1, \"kernels\": {\"" + key + "\": {\"kind\": \"fast\"}}}"}) {
+        std::string("{\"version\": \"2\", \"kernels\": 5}"),
+        "{\"version\": 2, \"kernels\": {\"" + key + "\": {\"kind\": \"fast\"}}}"}) {
     write_file(file_, damaged);
     EXPECT_EQ(remembered_kernel(file_, key), std::nullopt) << damaged;
   }
@@ -223,7 +261,8 @@ TEST_F(KernelChoiceTest, refuses_what_there_is_not_and_what_does_not_fit) {
     FAIL() << "accepted";
   } catch (const Error& refusal) {
     EXPECT_EQ(refusal.code(), Exit::usage);
-    EXPECT_NE(std::string(refusal.what()).find("direct, texel, strip, bands or auto"), std::string::npos);
+    EXPECT_NE(std::string(refusal.what()).find("direct, texel, strip, steal, bands or auto"),
+              std::string::npos);
   }
   const Model large = build_model(parse_scene("[cloth]\nresolution = 400\n", "large.toml").scene);
   const Plan plan = compile_plan(large, find_solver("leapfrog"));

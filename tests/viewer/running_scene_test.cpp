@@ -6,6 +6,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "core/error.h"
 #include "gpu/buffer.h"
 #include "gpu_fixture.h"
 #include "model/measures.h"
@@ -49,6 +50,31 @@ TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
   }
   EXPECT_EQ(state_hash(whole->read()), state_hash(parts->read()));
   EXPECT_EQ(whole->time_s(), parts->time_s());
+}
+
+// docs/viewer.md: a kernel changes no bit, gives way where it does not fit, and none is tried in a window.
+TEST_F(RunningSceneTest, AnotherKernelGoesOnFromTheSameBits) {
+  RunningScene running = open("1"), other = open("1");
+  EXPECT_EQ(running.kernel(), "auto");
+  EXPECT_NE(running.simulation().kernel().how, "trial");
+  frames(running, 2);
+  frames(other, 2);
+  other.set_kernel("bands");
+  EXPECT_EQ(other.simulation().kernel().kernel.kind, KernelKind::bands);
+  EXPECT_EQ(state_hash(other.simulation().read()), state_hash(running.simulation().read()));
+  frames(running, 2);
+  frames(other, 2);
+  EXPECT_EQ(state_hash(other.simulation().read()), state_hash(running.simulation().read()));
+  EXPECT_THROW(other.set_kernel("fastest"), Error);
+  EXPECT_EQ(other.kernel(), "bands");
+  Scene large = other.scene();
+  large.cloth.resolution = 400;  // more particles than bands is for
+  other.apply(large);
+  EXPECT_EQ(other.kernel(), "bands");
+  EXPECT_NE(other.simulation().kernel().kernel.kind, KernelKind::bands);
+  large.cloth.resolution = 24;
+  other.apply(large);
+  EXPECT_EQ(other.simulation().kernel().kernel.kind, KernelKind::bands);
 }
 
 TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
