@@ -1,8 +1,6 @@
 // `weft bench`: GPU time a particle·substep at several sizes, and the share of the copy bandwidth it reaches.
 #include "sim/bench.h"
 
-#include <cstdlib>
-
 #include "cli/command.h"
 #include "cli/setup.h"
 #include "cli/table.h"
@@ -17,22 +15,22 @@ double pass_ms(const BenchRow& row, std::string_view pass) {
 }
 
 Table table_of(const BenchReport& report) {
-  Table table{
-      {"scene", "resolution", "damping", "substeps", "ns_per_particle_substep", "spread",
-       "particle_substeps_per_s", "integrate_ms", "normals_ms", "gb_s", "copy_share", "bytes", "kernel"},
-      {}};
+  Table table{{"scene", "resolution", "damping", "substeps", "ns_per_particle_substep", "spread",
+               "particle_substeps_per_s", "integrate_ms", "normals_ms", "gb_s", "share_moved", "share_copied",
+               "bytes", "kernel"},
+              {}};
   for (const BenchRow& row : report.rows)
     table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.damping, row.substeps,
                           row.ns_per_particle_substep.median, row.ns_per_particle_substep.spread,
                           row.particle_substeps_per_s, pass_ms(row, "integrate"), pass_ms(row, "normals"),
-                          row.gb_s, row.copy_share, row.bytes, row.kernel});
+                          row.gb_s, row.share_moved, row.share_copied, row.bytes, row.kernel});
   return table;
 }
 
 std::string describe(const BenchReport& report, const std::string& device) {
   return fmt::format(
-      "{} · {} · {} {} · {} repetitions\ncopy: {:.3g} ± {:.2g} GB/s by command, {:.3g} ± {:.2g} GB/s "
-      "by shader, {} MiB buffers\n{}",
+      "{} · {} · {} {} · {} repetitions\ncopy: {:.3g} ± {:.2g} GB/s moved by command, {:.3g} ± {:.2g} "
+      "by shader (read and written; half of it copied), {} MiB buffers\n{}",
       report.scene, device, report.solver, report.precision, report.repetitions,
       report.copy.command_gb_s.median, report.copy.command_gb_s.spread, report.copy.shader_gb_s.median,
       report.copy.shader_gb_s.spread, report.copy.buffer_bytes >> 20,
@@ -73,9 +71,7 @@ Exit run_bench(const Options& o) {
     scenes.push_back(set_up(o, name).model.scene);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   BenchOptions options;
-  // What the device can do is asked for, so the fastest kernel is timed where none is named.
-  const bool named = !o.kernel.empty() || std::getenv("WEFT_KERNEL") != nullptr;
-  options.kernel = named ? o.kernel : "auto";
+  options.kernel = o.kernel;
   if (o.resolution) options.resolutions = {*o.resolution};
   std::vector<BenchReport> reports;
   for (const Scene& scene : scenes) {

@@ -208,7 +208,8 @@ BenchRow SizeBench::result(double copy_gb_s) const {
   }
   row.particle_substeps_per_s = 1e9 / row.ns_per_particle_substep.median;
   row.gb_s = bytes_per_particle_substep(plan_) / row.ns_per_particle_substep.median;
-  row.copy_share = row.gb_s / copy_gb_s;
+  row.share_moved = row.gb_s / copy_gb_s;
+  row.share_copied = 2 * row.share_moved;
   return row;
 }
 

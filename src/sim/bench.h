@@ -15,7 +15,7 @@ struct BenchOptions {
   std::uint32_t repetitions = 7;
   double repetition_s = 0.1;    ///< about how long one repetition of one kernel takes
   bool without_damping = true;  ///< also time every size with material.damping = 0
-  std::string kernel;           ///< one of kernel_names(), or "all"; empty: WEFT_KERNEL, else direct
+  std::string kernel;           ///< one of kernel_names(), or "all"; empty: WEFT_KERNEL, else auto
 };
 
 /// Median of the repetitions and half the distance between the quartiles.
@@ -45,7 +45,8 @@ struct BenchRow {
   Sample ns_per_particle_substep;
   double particle_substeps_per_s = 0;
   double gb_s = 0;          ///< counting bytes_per_particle_substep()
-  double copy_share = 0;    ///< gb_s over the copy bandwidth of the same run
+  double share_moved = 0;   ///< gb_s over what the copy of the same run moved: bytes read plus bytes written
+  double share_copied = 0;  ///< gb_s over what it copied: half of that
   std::uint64_t bytes = 0;  ///< of all buffers
   std::vector<BenchPass> passes;
 };

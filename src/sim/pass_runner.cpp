@@ -54,13 +54,14 @@ void take_output(BufferId id, std::span<const std::byte> bytes, HostBuffers<T>& 
 }  // namespace
 
 PassRunner::PassRunner(gpu::Device& device, const Model& model, const Plan& plan,
-                       const Perturbation& perturbation)
+                       const Perturbation& perturbation, const std::optional<Kernel>& kernel,
+                       std::shared_ptr<GpuPipelines> pipelines)
     : device_(device),
       model_(model),
       plan_(perturbed(plan, perturbation)),
       perturbation_(perturbation),
-      buffers_(device, model, plan_),
-      program_(device, plan_, buffers_) {}
+      buffers_(device, model, plan_, kernel.value_or(Kernel{})),
+      program_(device, plan_, buffers_, std::move(pipelines), kernel) {}
 
 PassRunner::Use PassRunner::use_of(std::size_t step, BufferId id) const {
   for (const gpu::Binding& binding : program_.pipeline(step).reflection().bindings)
@@ -94,20 +95,28 @@ std::map<BufferId, Bytes> PassRunner::contents(std::size_t step, const HostBuffe
   return contents;
 }
 
+bool PassRunner::queues_settled() {
+  if (!buffers_.has(BufferId::queue_heads)) return true;
+  Bytes heads(buffers_.at(BufferId::queue_heads).bytes());
+  buffers_.at(BufferId::queue_heads).read(heads);
+  return std::ranges::all_of(heads, [](std::byte b) { return b == std::byte{0}; });
+}
+
 template <class T>
 PassResult<T> PassRunner::run(std::size_t step, const HostBuffers<T>& input, std::span<const KickDrift> rows,
-                              std::uint32_t row_index) {
+                              std::uint32_t row_index, std::uint32_t substeps) {
   const std::map<BufferId, Bytes> before = contents(step, input, rows);
   for (const auto& [id, bytes] : before)
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers_.at(id, slot).write(bytes);
   device_.run_once([&](VkCommandBuffer commands) {
     gpu::Recorder recorder(device_, commands);
     recorder.label(plan_.steps[step].pass->name);
-    program_.dispatch(recorder, step, 0, 0, row_index);
+    program_.dispatch(recorder, step, 0, 0, row_index, substeps);
     recorder.end_label();
     recorder.finish();
   });
   PassResult<T> result;
+  if (!queues_settled()) result.touched.push_back(BufferId::queue_heads);
   for (const auto& [id, bytes] : before) {
     const bool output = use_of(step, id).writes;
     if (output) result.outputs.push_back(id);
@@ -122,8 +131,8 @@ PassResult<T> PassRunner::run(std::size_t step, const HostBuffers<T>& input, std
 }
 
 template PassResult<float> PassRunner::run(std::size_t, const HostBuffers<float>&, std::span<const KickDrift>,
-                                           std::uint32_t);
+                                           std::uint32_t, std::uint32_t);
 template PassResult<double> PassRunner::run(std::size_t, const HostBuffers<double>&,
-                                            std::span<const KickDrift>, std::uint32_t);
+                                            std::span<const KickDrift>, std::uint32_t, std::uint32_t);
 
 }  // namespace weft

@@ -27,18 +27,22 @@ template <class T>
 struct PassResult {
   std::vector<BufferId> outputs;  ///< what the pass writes, from its SPIR-V
   HostBuffers<T> buffers;         ///< every buffer of the plan except the tables
-  std::vector<BufferId> touched;  ///< buffers it should have left alone and did not
+  std::vector<BufferId> touched;  ///< buffers it should have left alone, or as they were, and did not
 };
 
 class PassRunner {
  public:
-  PassRunner(gpu::Device&, const Model&, const Plan&, const Perturbation&);
+  /// @param kernel     that runs `integrate`; absent: direct_kernel()
+  /// @param pipelines  shared with other runners; null: its own
+  PassRunner(gpu::Device&, const Model&, const Plan&, const Perturbation&,
+             const std::optional<Kernel>& kernel = {}, std::shared_ptr<GpuPipelines> pipelines = nullptr);
   /// Runs plan step `step` once on row `row_index` of `rows`. `input` gives what the pass reads; what it only
   /// writes is filled with poison first, what it does not touch and `input` does not have with a pattern.
   /// T is what the plan computes in.
+  /// @param substeps  that the one dispatch takes, at most the kernel's
   template <class T>
   PassResult<T> run(std::size_t step, const HostBuffers<T>& input, std::span<const KickDrift> rows,
-                    std::uint32_t row_index);
+                    std::uint32_t row_index, std::uint32_t substeps = 1);
 
   struct Use {
     bool reads = false, writes = false;
@@ -50,6 +54,8 @@ class PassRunner {
   template <class T>
   std::map<BufferId, Bytes> contents(std::size_t step, const HostBuffers<T>& input,
                                      std::span<const KickDrift> rows) const;
+  /// Whether the kernel's queues are empty again, as every dispatch must leave them.
+  bool queues_settled();
   gpu::Device& device_;
   const Model& model_;
   Plan plan_;

@@ -2,16 +2,15 @@
 #include "sim/validate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include "core/error.h"
+#include "passes/passes.h"
 #include "passes/tables.h"
-#include "sim/compare.h"
+#include "sim/allowance.h"
 #include "sim/gpu_simulation.h"
 #include "sim/pass_runner.h"
 #include "sim/probe_states.h"
@@ -21,51 +20,6 @@ namespace {
 
 std::string_view block_suffix(Block block) { return block == Block::frame_end ? " (frame end)" : ""; }
 
-/// How far a device that rounds otherwise may stray from the float mirror.
-struct Allowance {
-  double max_abs = 0, rms = 0, bias = 0;
-};
-
-/// @param lost   the float mirror against the double mirror: what rounding costs on this work
-/// @param count  vectors in the buffer
-/// @param held   pinned particles: the springs to them have no partner whose error cancels theirs, so that
-/// the
-///               mean may be off by the largest error at each
-/// A division of 2.5 ulp and a root of 3 (Vulkan's limits) are some ten times the half ulp of the mirrors'.
-/// Where float is exact by luck, an ulp of the largest number remains. Double loses on the same work what
-/// float does, a rounding of 2^-53 for each of 2^-24.
-template <class T>
-Allowance allowance(const Difference& lost, std::size_t count, std::size_t held) {
-  constexpr double kUlp = std::numeric_limits<float>::epsilon();
-  constexpr double kScale = std::numeric_limits<T>::epsilon() / kUlp, kMax = 16 * kScale, kRms = 8 * kScale;
-  const double n = static_cast<double>(count), ulp = kScale * kUlp * lost.magnitude;
-  const double at_pins = kMax * lost.max_abs * static_cast<double>(held) / n;
-  return {.max_abs = kMax * lost.max_abs + ulp,
-          .rms = kRms * lost.rms + ulp,
-          .bias = (kRms * lost.rms + ulp) / std::sqrt(n) + at_pins + kScale * lost.bias};
-}
-
-/// Fills in the verdict of a comparison from its difference; without an allowance it must be exact.
-void judge(ValidationRow& row, const Difference& apart, const std::optional<Allowance>& allowed) {
-  row.max_abs = apart.max_abs;
-  row.rms = apart.rms;
-  row.bias = apart.bias;
-  row.max_ulp = apart.max_ulp;
-  row.tolerance = allowed ? allowed->max_abs : 0;
-  const bool near =
-      allowed ? apart.max_abs <= allowed->max_abs && apart.rms <= allowed->rms : apart.max_ulp == 0;
-  const bool biased = allowed && apart.bias > allowed->bias;
-  row.ok = apart.finite && near && !biased;
-  if (!apart.finite)
-    row.verdict = "not finite";
-  else if (!near)
-    row.verdict = "over tolerance";
-  else if (biased)
-    row.verdict = "biased";
-  else
-    row.verdict = apart.max_ulp == 0 ? "exact" : "within tolerance";
-}
-
 template <class T, class From>
 HostBuffers<T> converted(const HostBuffers<From>& host) {
   HostBuffers<T> to;
@@ -74,12 +28,25 @@ HostBuffers<T> converted(const HostBuffers<From>& host) {
   return to;
 }
 
+template <class T>
+void swap_state(HostBuffers<T>& host) {
+  std::swap(host[BufferId::position], host[BufferId::position_next]);
+  std::swap(host[BufferId::velocity], host[BufferId::velocity_next]);
+}
+
 /// A step by the mirrors of both precisions, from the same floats: what float loses on it.
 class FloatLoss {
  public:
   template <class T>
   FloatLoss(const PlanStep& step, const MirrorContext& context, const HostBuffers<T>& before)
       : float_(converted<float>(before)), double_(converted<double>(float_)) {
+    step.pass->mirror_f32(context, float_);
+    step.pass->mirror_f64(context, double_);
+  }
+  /// A step more, from where the mirrors have come to.
+  void again(const PlanStep& step, const MirrorContext& context) {
+    swap_state(float_);
+    swap_state(double_);
     step.pass->mirror_f32(context, float_);
     step.pass->mirror_f64(context, double_);
   }
@@ -112,6 +79,7 @@ class Validator {
     report_.device = device.info().name;
     report_.scene = model.scene.title;
     report_.exact_required = device.info().software && !options_.assume_inexact;
+    pipelines_ = std::make_shared<GpuPipelines>(device);
     held_ = static_cast<std::size_t>(std::ranges::count(model.relative_inverse_mass, 0.0));
   }
 
@@ -130,10 +98,24 @@ class Validator {
     std::vector<KickDrift> rows;
     HostBuffers<T> host;
   };
-  void check_frame(PassRunner& runner, const ProbeState& probe);
-  void check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk);
+  struct KernelRunner {
+    std::string suffix;  ///< of the check's name: ", kernel strip"; empty with the direct one
+    Kernel kernel;
+    std::unique_ptr<PassRunner> runner;
+  };
+  struct KernelRun {
+    std::string check;  ///< "lockstep" with the direct kernel, else "lockstep, kernel strip"
+    std::unique_ptr<Simulation> simulation;
+  };
+  void start_runners(const Perturbation& perturbation);
+  void check_frame(const ProbeState& probe);
+  void check_step(std::size_t step, std::uint32_t substep, Walk& walk);
+  void check_several(const KernelRunner& with, const Walk& walk);
+  void check_outputs(const std::string& check, const Walk& walk, const HostBuffers<T>& before,
+                     PassResult<T>& result, HostBuffers<T>& expected, const std::optional<FloatLoss>& loss);
   void check_lockstep();
-  void compare_states(const std::string& name);
+  void start_runs();
+  void compare_states(const KernelRun& run, const std::string& name);
 
   gpu::Device& device_;
   const Model& model_;
@@ -141,14 +123,28 @@ class Validator {
   ValidationOptions options_;
   Plan plan_;
   ValidationReport report_;
-  std::size_t held_ = 0;                                             ///< pinned particles
-  std::unique_ptr<Simulation> device_run_, mirror_run_, other_run_;  ///< in lockstep; other: float or double
+  std::size_t held_ = 0;                ///< pinned particles
+  std::vector<KernelRunner> runners_;   ///< direct first, then every kind that fits
+  std::vector<KernelRun> device_runs_;  ///< in lockstep, all these
+  std::shared_ptr<GpuPipelines> pipelines_;
+  std::unique_ptr<Simulation> mirror_run_, other_run_;  ///< in lockstep; other: float or double
 };
 
 template <class T>
 void Validator<T>::check_passes(const Perturbation& perturbation) {
-  PassRunner runner(device_, model_, plan_, perturbation);
-  for (const ProbeState& probe : probe_states(model_, solver_)) check_frame(runner, probe);
+  start_runners(perturbation);
+  for (const ProbeState& probe : probe_states(model_, solver_)) check_frame(probe);
+  runners_.clear();
+}
+
+template <class T>
+void Validator<T>::start_runners(const Perturbation& perturbation) {
+  for (const std::string& name : fitting_kernel_names(device_, plan_)) {
+    const Kernel kernel = named_kernel(device_, plan_, name);
+    runners_.push_back(
+        {name == "direct" ? "" : ", kernel " + name, kernel,
+         std::make_unique<PassRunner>(device_, model_, plan_, perturbation, kernel, pipelines_)});
+  }
 }
 
 /// Whether the solver keeps more than positions and velocities from one substep to the next, so that the
@@ -161,7 +157,7 @@ bool keeps_more(const Plan& plan) {
 /// Walks through a frame whose state begins as the probe: its start, one substep or two, its end. The mirrors
 /// lead, so that each step is checked on what the ones before it leave.
 template <class T>
-void Validator<T>::check_frame(PassRunner& runner, const ProbeState& probe) {
+void Validator<T>::check_frame(const ProbeState& probe) {
   const std::uint32_t n = plan_.substeps, checked = std::min(n, keeps_more(plan_) ? 2u : 1u);
   Walk walk{.probe = probe,
             .rows = solver_.schedule(probe.state.time_s, model_.scene.solver.frame_s, n),
@@ -174,9 +170,11 @@ void Validator<T>::check_frame(PassRunner& runner, const ProbeState& probe) {
   load_state(model_, probe.state, walk.host);
   const auto check_block = [&](Block block, std::uint32_t substep) {
     for (std::size_t step = 0; step < plan_.steps.size(); ++step)
-      if (plan_.steps[step].block == block) check_step(runner, step, substep, walk);
+      if (plan_.steps[step].block == block) check_step(step, substep, walk);
   };
   check_block(Block::frame_start, 0);
+  for (const KernelRunner& with : runners_)
+    if (with.kernel.substeps > 1 && n > 1) check_several(with, walk);
   for (std::uint32_t k = 0; k < checked; ++k) check_block(Block::substep, k);
   check_block(Block::frame_end, n);
 }
@@ -208,58 +206,87 @@ void restore_unwritten(BufferId id, const HostBuffers<T>& before, HostBuffers<T>
         got[id][p][c] = expected[id][p][c] = vectors[p][c];
 }
 
-/// Integers must be equal on every device.
-void judge_words(ValidationRow& row, const std::vector<std::uint32_t>& got,
-                 const std::vector<std::uint32_t>& expected) {
-  for (std::size_t k = 0; k < std::min(got.size(), expected.size()); ++k)
-    row.max_abs =
-        std::max(row.max_abs, std::abs(static_cast<double>(got[k]) - static_cast<double>(expected[k])));
-  row.ok = got == expected;
-  row.verdict = row.ok ? "exact" : "over tolerance";
-}
-
-/// Runs one step on the device and by its mirror, both from the walk's buffers; what the mirror leaves there
-/// is what the next step finds.
+/// @param expected  what the mirror left, poison where it wrote nothing
+/// @param loss      absent where the device must be exact
 template <class T>
-void Validator<T>::check_step(PassRunner& runner, std::size_t step, std::uint32_t substep, Walk& walk) {
-  const PlanStep& planned = plan_.steps[step];
-  const ProbeState& probe = walk.probe;
-  HostBuffers<T>& host = walk.host;
-  const std::uint32_t row_index = plan_.table_row(planned, substep);
-  const HostBuffers<T> before = host;
-  PassResult<T> result = runner.run(step, host, walk.rows, row_index);
-  const MirrorContext context{model_, planned.constants, walk.rows[row_index], row_index, planned.item};
-  std::optional<FloatLoss> loss;
-  if (!report_.exact_required) loss.emplace(planned, context, host);
-  for (const BufferId id : result.outputs)
-    if (!runner.use_of(step, id).reads) poison_mirror(id, host);
-  run_mirror(planned, context, host);
-  if (planned.pass->settle_order) {
-    planned.pass->settle_order(result.buffers);
-    planned.pass->settle_order(host);
-  }
-
-  const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
+void Validator<T>::check_outputs(const std::string& check, const Walk& walk, const HostBuffers<T>& before,
+                                 PassResult<T>& result, HostBuffers<T>& expected,
+                                 const std::optional<FloatLoss>& loss) {
   for (const BufferId id : result.outputs) {
-    ValidationRow row{.check = check, .state = probe.name, .buffer = std::string(row_of(id).name)};
-    restore_unwritten(id, before, result.buffers, host);
+    ValidationRow row{.check = check, .state = walk.probe.name, .buffer = std::string(row_of(id).name)};
+    restore_unwritten(id, before, result.buffers, expected);
     if (holds_words(id)) {
-      judge_words(row, result.buffers.words_of(id), host.words_of(id));
+      judge_words(row, result.buffers.words_of(id), expected.words_of(id));
       report_.rows.push_back(std::move(row));
       continue;
     }
     std::optional<Allowance> allowed;
-    if (loss) allowed = allowance<T>(loss->in(id), host[id].size(), held_);
-    judge(row, difference(result.buffers[id], host[id]), allowed);
+    if (loss) allowed = allowance<T>(loss->in(id), expected[id].size(), held_);
+    judge(row, difference(result.buffers[id], expected[id]), allowed);
     report_.rows.push_back(std::move(row));
   }
-  ValidationRow others{.check = check, .state = probe.name, .buffer = "all others"};
+  ValidationRow others{.check = check, .state = walk.probe.name, .buffer = "all others"};
   others.ok = result.touched.empty();
   others.verdict = others.ok ? "untouched" : fmt::format("touched: {}", row_of(result.touched[0]).name);
   report_.rows.push_back(std::move(others));
-  if (!planned.pass->swaps_state) return;
-  std::swap(host[BufferId::position], host[BufferId::position_next]);
-  std::swap(host[BufferId::velocity], host[BufferId::velocity_next]);
+}
+
+/// Runs one step on the device, `integrate` by every kernel, and by its mirror, all from the walk's buffers;
+/// what the mirror leaves there is what the next step finds.
+template <class T>
+void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& walk) {
+  const PlanStep& planned = plan_.steps[step];
+  HostBuffers<T>& host = walk.host;
+  const std::uint32_t row_index = plan_.table_row(planned, substep);
+  const HostBuffers<T> before = host;
+  std::vector<PassResult<T>> results;
+  for (const KernelRunner& with : runners_)
+    if (results.empty() || planned.pass == &integrate)
+      results.push_back(with.runner->run(step, host, walk.rows, row_index));
+  const MirrorContext context{model_, planned.constants, walk.rows[row_index], row_index, planned.item};
+  std::optional<FloatLoss> loss;
+  if (!report_.exact_required) loss.emplace(planned, context, host);
+  for (const BufferId id : results[0].outputs)
+    if (!runners_[0].runner->use_of(step, id).reads) poison_mirror(id, host);
+  run_mirror(planned, context, host);
+  if (planned.pass->settle_order) {
+    planned.pass->settle_order(results[0].buffers);
+    planned.pass->settle_order(host);
+  }
+  const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
+  for (std::size_t r = 1; r < results.size(); ++r) {
+    HostBuffers<T> expected = host;
+    check_outputs(check + runners_[r].suffix, walk, before, results[r], expected, loss);
+  }
+  check_outputs(check, walk, before, results[0], host, loss);
+  if (planned.pass->swaps_state) swap_state(host);
+}
+
+/// A dispatch of several substeps against as many runs of the mirror.
+template <class T>
+void Validator<T>::check_several(const KernelRunner& with, const Walk& walk) {
+  std::size_t step = 0;
+  while (plan_.steps[step].pass != &integrate || plan_.steps[step].block != Block::substep) ++step;
+  const PlanStep& planned = plan_.steps[step];
+  const std::uint32_t count = std::min(with.kernel.substeps, plan_.substeps);
+  const std::uint32_t first_row = plan_.table_row(planned, 0);
+  PassResult<T> result = with.runner->run(step, walk.host, walk.rows, first_row, count);
+  HostBuffers<T> expected = walk.host;
+  std::optional<FloatLoss> loss;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (k > 0) swap_state(expected);
+    const std::uint32_t row = first_row + k;
+    const MirrorContext context{model_, planned.constants, walk.rows[row], row, planned.item};
+    for (const BufferId id : {BufferId::position_next, BufferId::velocity_next}) {
+      expected[id].resize(expected[BufferId::position].size());
+      poison_mirror(id, expected);
+    }
+    if (!report_.exact_required && k == 0) loss.emplace(planned, context, expected);
+    if (loss && k > 0) loss->again(planned, context);
+    run_mirror(planned, context, expected);
+  }
+  check_outputs(fmt::format("integrate{}, {} substeps", with.suffix, count), walk, walk.host, result,
+                expected, loss);
 }
 
 template <class T>
@@ -271,13 +298,13 @@ std::vector<glm::vec<4, T>> as_vec4(const std::vector<glm::dvec3>& vectors) {
 }
 
 template <class T>
-void Validator<T>::compare_states(const std::string& name) {
-  const State got = device_run_->read(), expected = mirror_run_->read();
+void Validator<T>::compare_states(const KernelRun& run, const std::string& name) {
+  const State got = run.simulation->read(), expected = mirror_run_->read();
   const State other = other_run_ ? other_run_->read() : State{};
   const State& in_float = plan_.in_double() ? other : expected;
   const State& in_double = plan_.in_double() ? expected : other;
   const auto compare = [&](BufferId id, const auto member) {
-    ValidationRow row{.check = "lockstep", .state = name, .buffer = std::string(row_of(id).name)};
+    ValidationRow row{.check = run.check, .state = name, .buffer = std::string(row_of(id).name)};
     const auto reference = as_vec4<T>(expected.*member);
     std::optional<Allowance> allowed;
     if (other_run_) {
@@ -293,26 +320,40 @@ void Validator<T>::compare_states(const std::string& name) {
   compare(BufferId::velocity, &State::velocity);
 }
 
+/// Every kind of kernel that fits the device, and the references.
 template <class T>
-void Validator<T>::check_lockstep() {
-  device_run_ = GpuSimulation::create(device_, model_, solver_, {.perturb = options_.perturb});
+void Validator<T>::start_runs() {
+  for (const std::string& kernel : fitting_kernel_names(device_, plan_))
+    device_runs_.push_back(
+        {kernel == "direct" ? "lockstep" : "lockstep, kernel " + kernel,
+         GpuSimulation::create(device_, model_, solver_,
+                               {.perturb = options_.perturb, .pipelines = pipelines_, .kernel = kernel})});
   mirror_run_ = make_cpu_simulation(model_, solver_, plan_.precision);
   if (!report_.exact_required)
     other_run_ = make_cpu_simulation(model_, solver_, plan_.in_double() ? "f32" : "f64");
+}
+
+template <class T>
+void Validator<T>::check_lockstep() {
+  start_runs();
   const std::uint32_t n = plan_.substeps;
   const double frame_s = model_.scene.solver.frame_s;
   const auto advance = [&](std::uint32_t substeps) {
-    for (Simulation* simulation : {device_run_.get(), mirror_run_.get(), other_run_.get()})
+    for (const KernelRun& run : device_runs_) run.simulation->advance(frame_s * substeps / n, substeps);
+    for (Simulation* simulation : {mirror_run_.get(), other_run_.get()})
       if (simulation != nullptr) simulation->advance(frame_s * substeps / n, substeps);
+  };
+  const auto compare = [&](const std::string& name) {
+    for (const KernelRun& run : device_runs_) compare_states(run, name);
   };
   for (std::uint32_t left = options_.lockstep_substeps; left > 0;) {
     const std::uint32_t substeps = std::min(left, n);
     advance(substeps);
     left -= substeps;
   }
-  if (options_.lockstep_substeps > 0) compare_states(fmt::format("{} substeps", options_.lockstep_substeps));
+  if (options_.lockstep_substeps > 0) compare(fmt::format("{} substeps", options_.lockstep_substeps));
   for (std::uint32_t frame = 0; frame < options_.lockstep_frames; ++frame) advance(n);
-  if (options_.lockstep_frames > 0) compare_states(fmt::format("{} frames on", options_.lockstep_frames));
+  if (options_.lockstep_frames > 0) compare(fmt::format("{} frames on", options_.lockstep_frames));
 }
 
 }  // namespace

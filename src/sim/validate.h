@@ -19,7 +19,9 @@ struct ValidationOptions {
 
 /// One comparison: a buffer after a pass, or position and velocity after steps in lockstep.
 struct ValidationRow {
-  std::string check;  ///< the pass ("integrate"), or "lockstep"
+  /// The pass ("integrate", "integrate, kernel strip", "integrate, kernel bands, 4 substeps"), or "lockstep",
+  /// "lockstep, kernel strip".
+  std::string check;
   std::string
       state;  ///< "start", "2 frames on", "shaken", "in contact"; for lockstep "100 substeps", "2 frames"
   std::string buffer;  ///< dictionary name
@@ -44,13 +46,14 @@ struct ValidationReport {
 /// Compares the device with the reference on this scene.
 /// For every step of the plan and every state: outputs are poisoned with NaN, everything else is filled, the
 /// pass runs once on the device and once as its mirror of the scene's precision; outputs are compared and all
-/// other buffers must keep every bit. Then both run the same frames and are compared.
+/// other buffers must keep every bit. `integrate` is checked so with each kind of kernel that the device can
+/// run. Then both run the same frames, again with each kernel, and are compared.
 ///
 /// Software devices must agree to the bit. Others divide and take roots a few ulp off, and are held to what
 /// float itself loses on the very same work: the float mirror against the double mirror gives a largest and a
 /// root mean square error, and the device may stray from the float mirror 16 and 8 times as far. Rounding
 /// errors of forces between particles cancel in pairs, so the mean difference has a much narrower allowance
-/// (see allowance() in validate.cpp); a wrong gravity or wind, lost below the rounding of stiff springs in
+/// (see allowance.h); a wrong gravity or wind, lost below the rounding of stiff springs in
 /// every single particle, shows there. Lockstep is judged by the same two factors, against the double
 /// reference after the same steps. In f64 the device is held against the double mirror, to all these
 /// allowances times 2^-29, the ratio of double's rounding to float's.
