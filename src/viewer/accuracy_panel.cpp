@@ -67,7 +67,7 @@ void diagram_rows(Accuracy& accuracy, const RunningScene& running, AccuracyWishe
   if (study == nullptr || study->cloth(accuracy.nx()) == nullptr) return;
   const float width = ImGui::GetContentRegionAvail().x;
   const LiveDot dot{live_ms_per_s(accuracy), accuracy.measured_error_m(), setting_text(accuracy.setting())};
-  const auto clicked = draw_diagram(*study, accuracy.nx(), dot, width, 0.66f * width);
+  const auto clicked = draw_diagram(*study, accuracy.nx(), dot, width, 0.58f * width);
   if (clicked) {
     accuracy.wish().kind = WishKind::by_hand;
     wishes.setting = clicked;
