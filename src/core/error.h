@@ -24,7 +24,7 @@ enum class Exit : int {
 /// A failure with a message for a person: place, value, rule, cure. Caught once, in main.
 class Error : public std::runtime_error {
  public:
-  Error(Exit code, std::string message) : std::runtime_error(std::move(message)), code_(code) {}
+  Error(Exit code, const std::string& message) : std::runtime_error(message), code_(code) {}
   Exit code() const { return code_; }
 
  private:

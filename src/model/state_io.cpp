@@ -112,8 +112,8 @@ State read_csv(const std::filesystem::path& file, const Grid& grid) {
       continue;
     }
     const std::array<double, 8> row = parse_row(line, place);
-    const std::size_t p = state.position.size();
-    if (p >= grid.count() || row[0] != double(p % grid.nx) || row[1] != double(p / grid.nx))
+    const std::size_t p = state.position.size(), i = p % grid.nx, j = p / grid.nx;
+    if (p >= grid.count() || row[0] != double(i) || row[1] != double(j))
       throw error(Exit::usage, "{}: particle ({}, {}) is out of order for a cloth of {} x {}", place, row[0],
                   row[1], grid.nx, grid.ny);
     state.position.emplace_back(row[2], row[3], row[4]);
@@ -162,9 +162,9 @@ void write_obj(const std::filesystem::path& file, const Model& model, const Stat
   TextFile out(file);
   out.print("o cloth\n");
   for (const glm::dvec3& x : state.position) out.print("v {:.9g} {:.9g} {:.9g}\n", x.x, x.y, x.z);
-  for (std::uint32_t p = 0; p < grid.count(); ++p)
-    out.print("vt {:.6g} {:.6g}\n", double(p % grid.nx) / (grid.nx - 1),
-              1.0 - double(p / grid.nx) / (grid.ny - 1));
+  for (std::uint32_t j = 0; j < grid.ny; ++j)
+    for (std::uint32_t i = 0; i < grid.nx; ++i)
+      out.print("vt {:.6g} {:.6g}\n", double(i) / (grid.nx - 1), 1.0 - double(j) / (grid.ny - 1));
   for (const glm::dvec3& n : normals) out.print("vn {:.6g} {:.6g} {:.6g}\n", n.x, n.y, n.z);
   for_each_triangle(grid, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
     out.print("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", p + 1, q + 1, r + 1);

@@ -9,10 +9,7 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const T weight = substep.row.gain, reach = substep.row.drift;
-  const auto [next_x, next_v, base_x, base_v, sum_x, sum_v] =
-      outputs<T, 6>(buffers, context.model,
-                    {BufferId::position_next, BufferId::velocity_next, BufferId::base_position,
-                     BufferId::base_velocity, BufferId::sum_position, BufferId::sum_velocity});
+  const StageOutputs<T> out(buffers, context.model);
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> slope_x(T(0)), slope_v(T(0));
@@ -20,12 +17,12 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       slope_x = own.v;
       slope_v = stage_acceleration(substep, own, force);
     }
-    put(*base_x, p, own.x);
-    put(*base_v, p, own.v);
-    put(*sum_x, p, weight * slope_x);
-    put(*sum_v, p, weight * slope_v);
-    put(*next_x, p, own.x + reach * slope_x, own.relative);
-    put(*next_v, p, own.v + reach * slope_v);
+    put(out.base_x, p, own.x);
+    put(out.base_v, p, own.v);
+    put(out.sum_x, p, weight * slope_x);
+    put(out.sum_v, p, weight * slope_v);
+    put(out.next_x, p, own.x + reach * slope_x, own.relative);
+    put(out.next_v, p, own.v + reach * slope_v);
   });
 }
 

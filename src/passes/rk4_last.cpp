@@ -9,21 +9,18 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const T weight = substep.row.gain;
-  const auto [next_x, next_v, base_x, base_v, sum_x, sum_v] =
-      outputs<T, 6>(buffers, context.model,
-                    {BufferId::position_next, BufferId::velocity_next, BufferId::base_position,
-                     BufferId::base_velocity, BufferId::sum_position, BufferId::sum_velocity});
+  const StageOutputs<T> out(buffers, context.model);
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> stage(buffers, substep, p);
-    const Vec3<T> x0 = xyz((*base_x)[p]), v0 = xyz((*base_v)[p]);
+    const Vec3<T> x0 = xyz(out.base_x[p]), v0 = xyz(out.base_v[p]);
     Vec3<T> x1 = x0, v1 = v0;
     if (!stage.pinned()) {
-      x1 = x0 + (xyz((*sum_x)[p]) + weight * stage.v);
-      v1 = v0 + (xyz((*sum_v)[p]) + weight * stage_acceleration(substep, stage, force));
+      x1 = x0 + (xyz(out.sum_x[p]) + weight * stage.v);
+      v1 = v0 + (xyz(out.sum_v[p]) + weight * stage_acceleration(substep, stage, force));
       substep.touch(x0, x1, v1);
     }
-    put(*next_x, p, x1, stage.relative);
-    put(*next_v, p, v1);
+    put(out.next_x, p, x1, stage.relative);
+    put(out.next_v, p, v1);
   });
 }
 

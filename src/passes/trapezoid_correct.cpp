@@ -9,11 +9,11 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const T weight = substep.row.gain;
-  const auto [next_x, next_v] =
-      outputs<T, 2>(buffers, context.model, {BufferId::position_next, BufferId::velocity_next});
+  auto& next_x = output(buffers, context.model, BufferId::position_next);
+  auto& next_v = output(buffers, context.model, BufferId::velocity_next);
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> far(buffers, substep, p);
-    const Vec3<T> x0 = xyz((*next_x)[p]), v0 = xyz((*next_v)[p]);  // where the step began
+    const Vec3<T> x0 = xyz(next_x[p]), v0 = xyz(next_v[p]);  // where the step began
     Vec3<T> x1 = x0, v1 = v0;
     if (!far.pinned()) {
       const Vec3<T> sum = v0 + far.v;
@@ -21,8 +21,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       v1 = T(0.5) * sum + weight * stage_acceleration(substep, far, force);
       substep.touch(x0, x1, v1);
     }
-    put(*next_x, p, x1, far.relative);
-    put(*next_v, p, v1);
+    put(next_x, p, x1, far.relative);
+    put(next_v, p, v1);
   });
 }
 

@@ -9,8 +9,8 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const T weight = substep.row.gain, reach = substep.row.drift;
-  const auto [next_x, next_v] =
-      outputs<T, 2>(buffers, context.model, {BufferId::position_next, BufferId::velocity_next});
+  auto& next_x = output(buffers, context.model, BufferId::position_next);
+  auto& next_v = output(buffers, context.model, BufferId::velocity_next);
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v1 = own.v;
@@ -18,8 +18,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       x1 = own.x + reach * own.v;
       v1 = own.v + weight * stage_acceleration(substep, own, force);
     }
-    put(*next_x, p, x1, own.relative);
-    put(*next_v, p, v1);
+    put(next_x, p, x1, own.relative);
+    put(next_v, p, v1);
   });
 }
 

@@ -81,6 +81,7 @@ fs::path find_scene(const std::string& wanted) {
   if (!wanted.empty() && fs::exists(wanted, ignored)) return wanted;
 
   std::vector<std::string> names;
+  names.reserve(scenes.size());
   for (const AssetInfo& scene : scenes) names.push_back(without_number(scene.name));
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw error(Exit::usage, "there is no scene or file {}; a scene is a number 1 to {}, a path, or a name: {}",
