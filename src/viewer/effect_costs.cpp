@@ -53,9 +53,10 @@ void EffectCosts::follow(RunningScene& running) {
     if (!is_new) at->second += 0.1 * (taken - at->second);
   }
   if (!trial_) return;
-  const bool more = trial_->go_on();
-  found_ = trial_->costs();
-  if (!more) trial_.reset();
+  std::unique_ptr<EffectTrial> trial = std::move(trial_);  // one that throws is not gone on with
+  const bool more = trial->go_on();
+  found_ = trial->costs();
+  if (more) trial_ = std::move(trial);
 }
 
 /// Asks the plans only when other effects or another solver run: a slider that moves changes neither.
