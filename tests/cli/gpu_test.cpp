@@ -105,7 +105,8 @@ TEST(Device, ABrokenShaderIsExitTwoWithItsLine) {
   std::filesystem::copy(WEFT_SOURCE_DIR "/shaders", scratch.path("shaders"),
                         std::filesystem::copy_options::recursive);
   write_text(scratch.path("shaders/passes/integrate.comp"), "#version 460\nvoid main() {\n  nonsense;\n}\n");
-  const Result result = weft(on_device("simulate", {"--time", "0.02", "--shaders", scratch.path("shaders")}));
+  const Result result = weft(
+      on_device("simulate", {"--time", "0.02", "--kernel", "direct", "--shaders", scratch.path("shaders")}));
   EXPECT_CODE(result, 2);
   EXPECT_SAYS(result.err, "integrate.comp:3");
 }
