@@ -33,6 +33,7 @@
   ROW(touch_count, 25, uint, "pairs nearer than their limit")                                    \
   ROW(draw_position, 26, vec4, "f64: position rounded to float, as it is drawn")                 \
   ROW(draw_normal, 27, vec4, "f64: normal rounded to float, as it is drawn")                     \
-  ROW(queue_heads, 28, uint, "kernel steal: workgroups done, then tiles taken of each queue")
+  ROW(queue_heads, 28, uint, "kernel steal: workgroups done, then tiles taken of each queue")    \
+  ROW(moved_pins, 29, MovedPin, "particles of pins that move: anchor [m], particle, pin")
 
 #endif

@@ -7,6 +7,8 @@
 WEFT_SHARED_BEGIN
 
 WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
+WEFT_CONST uint kMaxMovedPins = 64u;           // documented limit of [[pins]] with keys
+WEFT_CONST uint kMovedPinsWide = 4096u;        // particles in a row of the passes over what they hold
 WEFT_CONST float kTinyLengthSquared = 1e-24f;  // m², guards 1/length of coincident particles
 WEFT_CONST float kNoLength = 1e-12f;           // m; a shorter vector from a sphere's centre has no direction
 WEFT_CONST float kNoNormal = 1e-30f;           // m²; a shorter sum of triangle normals has no direction
@@ -41,8 +43,19 @@ using Params = ParamsOf<float>;
 //   [2+3s] xyz = centre at the drift's end [m]           w = reach: radius + half thickness [m]
 //   [3+3s] xyz = the centre's travel during the drift [m]  w = friction coefficient
 //   [4+3s] xyz = velocity at the drift's end [m/s]       w unused
+//   then two real4 a pin that moves, in scene order:
+//   [0] xyz = its offset at the drift's end [m]          w unused
+//   [1] xyz = its mean velocity during the drift [m/s]   w unused
 WEFT_CONST uint kRowHeadVec4s = 2u;
 WEFT_CONST uint kRowSphereVec4s = 3u;
+WEFT_CONST uint kRowPinVec4s = 2u;
+
+// A particle that a moving pin holds: its place is anchor + the pin's offset.
+WEFT_REAL_STRUCT(MovedPin) {
+  real3 anchor_m;  // at the cloth's start, without the offset
+  uint particle;
+  uint pin;  // the how-manieth of those that move
+};
 
 // The rows of `constraints`, which XPBD alone has: x = rest [m], y = compliance 1/k [m/N], z = damping time
 // c/k [s]. Structural, flex and bending rows come in pairs: inside, then on a boundary line.

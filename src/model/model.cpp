@@ -45,8 +45,9 @@ std::vector<double> relative_inverse_masses(const Grid& grid) {
   return relative;
 }
 
-/// Pins every particle within the radius of the pin, on the flat cloth. Returns how many it holds.
-std::uint64_t apply_pin(const PinSection& pin, const Grid& grid, std::vector<double>& relative) {
+/// Calls visit(particle) for every one within the radius of the pin, on the flat cloth. Returns how many.
+template <class Visit>
+std::uint64_t for_each_held(const PinSection& pin, const Grid& grid, Visit&& visit) {
   const double x_m = pin.at.x * grid.width_m(), y_m = pin.at.y * grid.height_m();
   const double reach_m = pin.radius_m * (1.0 + 1e-6);
   const auto first = [&](double center_m) {
@@ -61,7 +62,7 @@ std::uint64_t apply_pin(const PinSection& pin, const Grid& grid, std::vector<dou
     for (std::uint32_t i = first(x_m); i <= last(x_m, grid.nx); ++i) {
       const double dx_m = i * grid.spacing_m - x_m, dy_m = j * grid.spacing_m - y_m;
       if (dx_m * dx_m + dy_m * dy_m > reach_m * reach_m) continue;
-      relative[grid.index(i, j)] = 0.0;
+      visit(grid.index(i, j));
       ++held;
     }
   }
@@ -71,11 +72,50 @@ std::uint64_t apply_pin(const PinSection& pin, const Grid& grid, std::vector<dou
 void apply_pins(const Scene& scene, const Grid& grid, std::vector<double>& relative) {
   for (std::size_t p = 0; p < scene.pins.size(); ++p) {
     const PinSection& pin = scene.pins[p];
-    if (apply_pin(pin, grid, relative) == 0)
+    if (for_each_held(pin, grid, [&](std::uint32_t particle) { relative[particle] = 0.0; }) == 0)
       throw error(Exit::usage,
                   "{}: pins[{}] at ({}, {}) with radius {} m holds no particle; a radius of {} m always does",
                   place(scene), p, pin.at.x, pin.at.y, pin.radius_m, grid.spacing_m * 0.5 * std::sqrt(2.0));
   }
+}
+
+State flat_state(const Model& model) {
+  const Grid& grid = model.grid;
+  const ClothSection& cloth = model.scene.cloth;
+  const bool vertical = cloth.orientation == Orientation::vertical;
+  State state;
+  state.position.resize(grid.count());
+  state.velocity.assign(grid.count(), glm::dvec3(0.0));
+  constexpr double kPi = std::numbers::pi;
+  for (std::uint32_t j = 0; j < grid.ny; ++j) {
+    const double s = j * grid.spacing_m, wave_j = std::sin(2.0 * kPi * j / (grid.ny - 1) + 0.9);
+    for (std::uint32_t i = 0; i < grid.nx; ++i) {
+      const double u = i * grid.spacing_m - 0.5 * cloth.width_m;
+      const double lift = cloth.imperfection_m * std::sin(3.0 * kPi * i / (grid.nx - 1) + 0.4) * wave_j;
+      const glm::dvec3 offset = vertical ? glm::dvec3(u, 0.5 * grid.height_m() - s, lift)
+                                         : glm::dvec3(u, lift, s - 0.5 * grid.height_m());
+      state.position[grid.index(i, j)] = cloth.center_m + offset;
+    }
+  }
+  return state;
+}
+
+/// Which particles the pins with keys hold. Nothing, and no work, where there are none.
+void find_moved_particles(Model& model) {
+  const std::vector<PinSection>& pins = model.scene.pins;
+  for (std::uint32_t p = 0; p < pins.size(); ++p)
+    if (!pins[p].keys.empty()) model.moved_pins.push_back(p);
+  if (model.moved_pins.empty()) return;
+  constexpr std::uint32_t kNone = ~0u, kStill = kNone - 1;
+  std::vector<std::uint32_t> owner(model.grid.count(), kNone);
+  std::uint32_t moved = 0;
+  for (const PinSection& pin : pins) {
+    const std::uint32_t own = pin.keys.empty() ? kStill : moved++;
+    for_each_held(pin, model.grid, [&](std::uint32_t p) { owner[p] = owner[p] == kNone ? own : owner[p]; });
+  }
+  const State start = flat_state(model);
+  for (std::uint32_t p = 0; p < owner.size(); ++p)
+    if (owner[p] < kStill) model.moved_particles.push_back({p, owner[p], start.position[p]});
 }
 
 std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m, double a, double mass_kg) {
@@ -101,6 +141,7 @@ Model build_model(const Scene& scene) {
   model.interior_mass_kg = scene.material.density_kg_m2 * a * a;
   model.relative_inverse_mass = relative_inverse_masses(model.grid);
   apply_pins(scene, model.grid, model.relative_inverse_mass);
+  find_moved_particles(model);
   model.springs = build_springs(scene.material, a, model.interior_mass_kg);
   model.bend_kappa_n_m = scene.material.bend_n_m / (a * a);
   model.half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
@@ -120,24 +161,17 @@ Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_s
 }
 
 State start_state(const Model& model) {
-  const Grid& grid = model.grid;
-  const ClothSection& cloth = model.scene.cloth;
-  const bool vertical = cloth.orientation == Orientation::vertical;
-  State state;
-  state.position.resize(grid.count());
-  state.velocity.assign(grid.count(), glm::dvec3(0.0));
-  constexpr double kPi = std::numbers::pi;
-  for (std::uint32_t j = 0; j < grid.ny; ++j) {
-    const double s = j * grid.spacing_m, wave_j = std::sin(2.0 * kPi * j / (grid.ny - 1) + 0.9);
-    for (std::uint32_t i = 0; i < grid.nx; ++i) {
-      const double u = i * grid.spacing_m - 0.5 * cloth.width_m;
-      const double lift = cloth.imperfection_m * std::sin(3.0 * kPi * i / (grid.nx - 1) + 0.4) * wave_j;
-      const glm::dvec3 offset = vertical ? glm::dvec3(u, 0.5 * grid.height_m() - s, lift)
-                                         : glm::dvec3(u, lift, s - 0.5 * grid.height_m());
-      state.position[grid.index(i, j)] = cloth.center_m + offset;
-    }
-  }
+  State state = flat_state(model);
+  place_moved_pins(model, state);
   return state;
+}
+
+void place_moved_pins(const Model& model, State& state) {
+  for (const MovedParticle& held : model.moved_particles) {
+    const MotionKeys& keys = model.scene.pins[model.moved_pins[held.pin]].keys;
+    state.position[held.particle] = held.anchor_m + place_at(keys, state.time_s);
+    state.velocity[held.particle] = velocity_before(keys, state.time_s);
+  }
 }
 
 glm::dvec3 wind_at(const Scene& scene, double time_s) {

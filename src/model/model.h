@@ -37,6 +37,13 @@ struct StepBound {
   double gamma_1_s = 0.0;
 };
 
+/// A particle that a pin with keys holds.
+struct MovedParticle {
+  std::uint32_t particle;
+  std::uint32_t pin;    ///< index in Model::moved_pins
+  glm::dvec3 anchor_m;  ///< its place at the cloth's start, without the pin's offset
+};
+
 struct Model {
   Scene scene;
   Grid grid;
@@ -45,7 +52,9 @@ struct Model {
   std::array<SpringKind, kSpringKindCount> springs;  ///< kinds with k = 0 are absent
   double bend_kappa_n_m = 0.0;                       ///< kappa = B/a² of an interior line [N/m]
   double half_thickness_m = 0.0;                     ///< of the cloth in contact; 0 without self-collision
-  std::uint64_t spring_count = 0;  ///< springs that exist and do not join two pinned particles
+  std::vector<std::uint32_t> moved_pins;             ///< pins with keys, as indices in scene.pins, ascending
+  std::vector<MovedParticle> moved_particles;  ///< ascending; a particle of several pins is the first one's
+  std::uint64_t spring_count = 0;              ///< springs that exist and do not join two pinned particles
   StepBound bound;
 
   double inverse_mass(std::uint32_t particle) const {
@@ -66,8 +75,11 @@ Model build_model(const Scene& scene);
 /// For tests of extreme mass ratios only: the same model with every particle's inverse mass scaled.
 Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_scale);
 
-/// The scene's start: flat, at rest, with its imperfection.
+/// The scene's start: flat, at rest, with its imperfection; pins with keys where these are at time 0.
 State start_state(const Model& model);
+
+/// Puts what moving pins hold where these are at the state's time, with their velocity.
+void place_moved_pins(const Model& model, State& state);
 
 /// Wind velocity [m/s] at time t; zero without wind.
 glm::dvec3 wind_at(const Scene& scene, double time_s);

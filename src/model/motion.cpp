@@ -15,6 +15,13 @@ glm::dvec3 place_at(const MotionKeys& keys, double time_s) {
   return from.place_m + share * (to.place_m - from.place_m);
 }
 
+glm::dvec3 velocity_before(const MotionKeys& keys, double time_s) {
+  const auto next = std::ranges::lower_bound(keys, time_s, {}, &MotionKey::time_s);
+  if (next == keys.begin() || next == keys.end()) return glm::dvec3(0.0);
+  const MotionKey &from = *(next - 1), &to = *next;
+  return (to.place_m - from.place_m) / (to.time_s - from.time_s);
+}
+
 double fastest_m_s(const MotionKeys& keys) {
   double fastest = 0.0;
   for (std::size_t k = 1; k < keys.size(); ++k)

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "model/motion.h"
+
 namespace weft {
 namespace {
 
@@ -39,7 +41,7 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
   const Scene& scene = model.scene;
   const double alpha = drag_rate(model);
   SubstepRow<double> out{
-      alpha * wind_at(scene, row.kick_time_s), 0.0, row.kick_s, row.drift_s, row.predict_s, 0.0, {}};
+      alpha * wind_at(scene, row.kick_time_s), 0.0, row.kick_s, row.drift_s, row.predict_s, 0.0, {}, {}};
   if (row.plain_air) {
     out.loss = alpha;
   } else if (alpha > 0.0) {  // 1 − e without cancellation
@@ -55,6 +57,13 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
     const glm::dvec3 velocity =
         sphere.keys.empty() || !(row.drift_s > 0.0) ? sphere.velocity_m_s : travel / row.drift_s;
     out.spheres.push_back({end, travel, velocity, sphere.radius_m + model.half_thickness_m, sphere.friction});
+  }
+  for (const std::uint32_t p : model.moved_pins) {
+    const MotionKeys& keys = scene.pins[p].keys;
+    const glm::dvec3 end = place_at(keys, row.drift_time_s + row.drift_s);
+    const bool drifts = row.drift_s > 0.0;
+    out.pins.push_back(
+        {end, drifts ? (end - place_at(keys, row.drift_time_s)) / row.drift_s : glm::dvec3(0.0)});
   }
   return out;
 }

@@ -32,6 +32,13 @@ struct SphereRow {
   T friction;
 };
 
+/// One pin with keys during one drift.
+template <class T>
+struct PinRow {
+  glm::vec<3, T> offset;    ///< at the drift's end [m]
+  glm::vec<3, T> velocity;  ///< the mean during the drift [m/s]
+};
+
 /// One row of the schedule as the integration pass reads it.
 template <class T>
 struct SubstepRow {
@@ -42,6 +49,7 @@ struct SubstepRow {
   T predict_gain;             ///< of the kick that predicts; 0 without one
   T predict_loss;             ///< 0 without one
   std::vector<SphereRow<T>> spheres;
+  std::vector<PinRow<T>> pins;
 };
 
 SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row);
@@ -68,11 +76,13 @@ SubstepRow<T> substep_row(const Model& model, const KickDrift& kick_drift) {
                     static_cast<T>(exact.drift),
                     static_cast<T>(exact.predict_gain),
                     static_cast<T>(exact.predict_loss),
+                    {},
                     {}};
   row.spheres.reserve(exact.spheres.size());
   for (const SphereRow<double>& s : exact.spheres)
     row.spheres.push_back(
         {s.center, s.travel, s.velocity, static_cast<T>(s.reach), static_cast<T>(s.friction)});
+  for (const PinRow<double>& pin : exact.pins) row.pins.push_back({pin.offset, pin.velocity});
   return row;
 }
 

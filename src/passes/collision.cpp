@@ -42,6 +42,8 @@ double design_speed_m_s(const Model& model) {
     const double own_m_s = sphere.keys.empty() ? glm::length(sphere.velocity_m_s) : fastest_m_s(sphere.keys);
     speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * own_m_s);
   }
+  for (const std::uint32_t pin : model.moved_pins)
+    speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * fastest_m_s(scene.pins[pin].keys));
   return speed_m_s;
 }
 

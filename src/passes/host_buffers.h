@@ -28,6 +28,7 @@ struct Elements {
   using uint = std::uint32_t;
   using Params = shared::ParamsOf<T>;
   using Collision = shared::CollisionOf<T>;
+  using MovedPin = shared::MovedPinOf<T>;
 };
 
 struct BufferRow {
@@ -70,8 +71,9 @@ struct HostWords {
   }
 };
 
-/// Buffers on the host: vectors in T, integers as they are. `params`, `substeps` and `collision` have no
-/// place here: mirrors take the Model and the schedule row instead, so that they check the tables too.
+/// Buffers on the host: vectors in T, integers as they are. `params`, `substeps`, `collision` and
+/// `moved_pins` have no place here: mirrors take the Model and the schedule row instead, so that they check
+/// the tables too.
 template <class T>
 struct HostBuffers : HostWords {
   std::array<std::vector<glm::vec<4, T>>, kBufferCount> vec4;

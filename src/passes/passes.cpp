@@ -23,6 +23,8 @@ std::span<const Pass* const> passes() {
                                       &integrate_compensated,
                                       &velocity_verlet_compensated,
                                       &normals,
+                                      &pin_place,
+                                      &xpbd_pins,
                                       &pair_check,
                                       &cell_count,
                                       &cell_scan,

@@ -26,7 +26,8 @@ shared::ParamsOf<T> make_params(const Model& model) {
   params.nx = model.grid.nx;
   params.ny = model.grid.ny;
   params.sphere_count = static_cast<shared::uint>(scene.spheres.size());
-  params.row_stride = shared::kRowHeadVec4s + shared::kRowSphereVec4s * params.sphere_count;
+  params.row_stride = shared::kRowHeadVec4s + shared::kRowSphereVec4s * params.sphere_count +
+                      shared::kRowPinVec4s * static_cast<shared::uint>(model.moved_pins.size());
   return params;
 }
 
@@ -47,6 +48,10 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
       table.emplace_back(sphere.center, sphere.reach);
       table.emplace_back(sphere.travel, sphere.friction);
       table.emplace_back(sphere.velocity, T(0));
+    }
+    for (const PinRow<T>& pin : row.pins) {
+      table.emplace_back(pin.offset, T(0));
+      table.emplace_back(pin.velocity, T(0));
     }
   }
 }
@@ -73,6 +78,9 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
     excess[p] = too_much(position[p], state.position[p]);
     excess[count + p] = too_much(velocity[p], state.velocity[p]);
   }
+  // pin_place writes places anew, and nothing sums there.
+  for (const MovedParticle& held : model.moved_particles)
+    excess[held.particle] = excess[count + held.particle] = glm::vec<4, T>(T(0));
 }
 
 template <class T>

@@ -15,7 +15,8 @@ std::uint32_t substep_row_capacity(std::uint32_t rows) { return std::bit_ceil(ro
 
 std::uint32_t substep_row_stride(const Model& model) {
   return shared::kRowHeadVec4s +
-         shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size());
+         shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size()) +
+         shared::kRowPinVec4s * static_cast<std::uint32_t>(model.moved_pins.size());
 }
 
 std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows) {
@@ -25,6 +26,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::constraints: return shared::kConstraintRows;
     case BufferId::substeps: return std::uint64_t{substep_row_capacity(rows)} * substep_row_stride(model);
     case BufferId::collision: return 1;
+    case BufferId::moved_pins: return model.moved_particles.size();
     case BufferId::collision_state: return shared::kCollisionStateWords;
     case BufferId::cells: return collision_layout(model).buckets + std::uint64_t{1};
     case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
@@ -99,6 +101,10 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
                                              pair_count, pair_places, touch_count};
   static constexpr std::array kSelfContact = {params,    position,   position_next, velocity,   velocity_next,
                                               collision, pair_count, pair_places,   touch_count};
+  static constexpr std::array kPinPlace = {params, substeps, position, velocity, moved_pins};
+  static constexpr std::array kXpbdPins = {params, substeps, position_next, moved_pins};
+  if (&pass == &pin_place) return kPinPlace;
+  if (&pass == &xpbd_pins) return kXpbdPins;
   if (&pass == &normals) return kNormals;
   if (&pass == &pair_check || &pass == &cell_count) return kPairCheck;
   if (&pass == &cell_scan) return kCellScan;

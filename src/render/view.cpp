@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "model/motion.h"
+
 namespace weft {
 namespace {
 
@@ -22,11 +24,12 @@ double drawn_radius_m(double radius_m, double spacing_m) {
   return std::max(0.8 * radius_m, std::sqrt(std::max(radius_m * radius_m - chord * chord, 0.0))) * 0.998;
 }
 
-glm::dvec3 pin_place_m(const Model& model, const PinSection& pin) {
+glm::dvec3 pin_place_m(const Model& model, const PinSection& pin, double time_s) {
   const ClothSection& cloth = model.scene.cloth;
   const double u = (pin.at.x - 0.5) * model.grid.width_m(), s = (0.5 - pin.at.y) * model.grid.height_m();
   const bool lies = cloth.orientation == Orientation::horizontal;
-  return cloth.center_m + (lies ? glm::dvec3(u, 0.0, -s) : glm::dvec3(u, s, 0.0));
+  const glm::dvec3 moved_m = pin.keys.empty() ? glm::dvec3(0.0) : place_at(pin.keys, time_s);
+  return cloth.center_m + moved_m + (lies ? glm::dvec3(u, 0.0, -s) : glm::dvec3(u, s, 0.0));
 }
 
 std::uint32_t sphere_count(const Model& model) {
@@ -42,7 +45,7 @@ void place_balls(const Model& model, double time_s, shared::View& view) {
         glm::vec4(sphere_center_at(sphere, time_s), drawn_radius_m(sphere.radius_m, model.grid.spacing_m));
   }
   for (std::uint32_t k = view.sphere_count; k < view.ball_count; ++k)
-    view.balls[k] = glm::vec4(pin_place_m(model, model.scene.pins[k - view.sphere_count]),
+    view.balls[k] = glm::vec4(pin_place_m(model, model.scene.pins[k - view.sphere_count], time_s),
                               kPinHead * cloth_size_m(model));
 }
 

@@ -82,6 +82,18 @@ void check_motion(const Draft& draft) {
   }
 }
 
+void check_moved_pins(const Draft& draft) {
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < draft.scene.pins.size(); ++k) {
+    moved += draft.scene.pins[k].keys.empty() ? 0 : 1;
+    if (moved > shared::kMaxMovedPins)
+      throw error(Exit::usage,
+                  "{}: pins.{}.keys is of the {}th pin that moves; it must be at most the {}th "
+                  "(join pins that move alike, or leave some still)",
+                  draft.place_of({"pins", k}, "keys"), k, moved, shared::kMaxMovedPins);
+  }
+}
+
 void check_spheres(const Draft& draft) {
   if (draft.scene.spheres.size() <= shared::kMaxSpheres) return;
   throw error(Exit::usage, "{}: there are {} spheres; it must be at most {} (remove some)",
@@ -97,6 +109,7 @@ void check_scene(const Draft& draft) {
   check_pins(draft);
   check_wind(draft);
   check_motion(draft);
+  check_moved_pins(draft);
   check_spheres(draft);
 }
 

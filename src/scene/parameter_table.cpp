@@ -166,6 +166,16 @@ const Parameter kTable[] = {
                                               .unit = "m",
                                               .about = "every particle within it is held",
                                               .example = "0.05"}),
+    row<&Scene::pins, &PinSection::keys>(
+        {.section = "pins",
+         .key = "keys",
+         .kind = keys,
+         .minimum = -kFarthest_m,
+         .maximum = kFarthest_m,
+         .unit = "m",
+         .about = "offsets from its place at the cloth's start, in time",
+         .example = "[{ time = 0, offset = [0, 0, 0] }, { time = 2, offset = [0.5, 0, 0] }]",
+         .default_text = "none"}),
 
     row<&Scene::gravity, &GravitySection::acceleration_m_s2>({.section = "gravity",
                                                               .key = "acceleration",

@@ -16,7 +16,7 @@ enum class Orientation { vertical, horizontal };
 /// the last it stands still.
 struct MotionKey {
   double time_s = 0.0;
-  glm::dvec3 place_m{0.0};  ///< a sphere's centre
+  glm::dvec3 place_m{0.0};  ///< a sphere's centre; a pin's offset from its place at the cloth's start
   bool operator==(const MotionKey&) const = default;
 };
 using MotionKeys = std::vector<MotionKey>;
@@ -46,6 +46,7 @@ struct MaterialSection {
 struct PinSection {
   glm::dvec2 at{0.0};  ///< fractions of width and real height; (0,0) is the top-left corner
   double radius_m = 0.05;
+  MotionKeys keys = {};  ///< of its offset; empty: it stays
 };
 
 struct GravitySection {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "passes/collision.h"
+#include "passes/moved_pins.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
 
@@ -39,6 +40,10 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
       const auto collision = make_collision<T>(model);
       return bytes_of(std::span(&collision, 1));
     }
+    if (id == BufferId::moved_pins) {
+      const auto pins = make_moved_pins<T>(model);
+      return bytes_of(std::span<const shared::MovedPinOf<T>>(pins));
+    }
     if (id == BufferId::constraints) {
       ConstraintRows<T> constraints = constraint_rows<T>(model);
       perturbation.apply(constraints);
@@ -56,14 +61,15 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
   return in_precision(plan, [&]<class T>(T) {
     std::vector<glm::vec<4, T>> table;
     fill_substep_rows(model, rows, table);
-    perturbation.apply(std::span(table), substep_row_stride(model));
+    perturbation.apply(std::span(table), substep_row_stride(model), model.scene.spheres.size());
     return bytes_of(std::span<const glm::vec<4, T>>(table));
   });
 }
 
 void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
                   const Perturbation& perturbation) {
-  for (const BufferId id : {BufferId::params, BufferId::constraints, BufferId::collision}) {
+  for (const BufferId id :
+       {BufferId::params, BufferId::constraints, BufferId::collision, BufferId::moved_pins}) {
     if (!buffers.has(id)) continue;
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);

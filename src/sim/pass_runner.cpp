@@ -81,7 +81,8 @@ std::map<BufferId, Bytes> PassRunner::contents(std::size_t step, const HostBuffe
     const auto put = [&](std::span<const std::byte> from) {
       std::memcpy(bytes.data(), from.data(), std::min(bytes.size(), from.size()));
     };
-    if (id == BufferId::params || id == BufferId::constraints || id == BufferId::collision)
+    if (id == BufferId::params || id == BufferId::constraints || id == BufferId::collision ||
+        id == BufferId::moved_pins)
       put(block_bytes(id, model_, plan_, perturbation_));
     else if (id == BufferId::substeps)
       put(table_bytes(model_, plan_, rows, perturbation_));

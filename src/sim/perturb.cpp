@@ -69,14 +69,14 @@ void Perturbation::apply(ConstraintRows<T>& constraints) const {
 }
 
 template <class T>
-void Perturbation::apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride) const {
+void Perturbation::apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride, std::size_t spheres) const {
   for (std::size_t row = 0; row + stride <= rows.size(); row += stride) {
     if (constant_ == "air") rows[row].w *= kFactor<T>;
     if (constant_ == "wind")
       for (int axis = 0; axis < 3; ++axis) rows[row][axis] *= kFactor<T>;
     if (constant_ == "spheres")
-      for (std::size_t sphere = shared::kRowHeadVec4s; sphere < stride; sphere += shared::kRowSphereVec4s)
-        rows[row + sphere].w *= kFactor<T>;
+      for (std::size_t sphere = 0; sphere < spheres; ++sphere)
+        rows[row + shared::kRowHeadVec4s + sphere * shared::kRowSphereVec4s].w *= kFactor<T>;
   }
 }
 
@@ -84,7 +84,7 @@ template void Perturbation::apply(const Model&, shared::ParamsOf<float>&) const;
 template void Perturbation::apply(const Model&, shared::ParamsOf<double>&) const;
 template void Perturbation::apply(ConstraintRows<float>&) const;
 template void Perturbation::apply(ConstraintRows<double>&) const;
-template void Perturbation::apply(std::span<glm::vec<4, float>>, std::uint32_t) const;
-template void Perturbation::apply(std::span<glm::vec<4, double>>, std::uint32_t) const;
+template void Perturbation::apply(std::span<glm::vec<4, float>>, std::uint32_t, std::size_t) const;
+template void Perturbation::apply(std::span<glm::vec<4, double>>, std::uint32_t, std::size_t) const;
 
 }  // namespace weft

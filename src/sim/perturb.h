@@ -27,9 +27,10 @@ class Perturbation {
   void apply(const Model& model, shared::ParamsOf<T>& params) const;
   template <class T>
   void apply(ConstraintRows<T>& constraints) const;
-  /// @param rows  one substep table, `stride` vectors a row
+  /// @param rows     one substep table, `stride` vectors a row
+  /// @param spheres  of the scene
   template <class T>
-  void apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride) const;
+  void apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride, std::size_t spheres) const;
 
  private:
   std::string pass_, constant_;

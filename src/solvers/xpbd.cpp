@@ -14,14 +14,16 @@ namespace weft {
 namespace {
 
 constexpr auto kSteps = [] {
-  std::array<SolverStep, 3 + kSpringColours + kBendColours> steps{};
+  std::array<SolverStep, 5 + kSpringColours + kBendColours> steps{};
   std::size_t next = 0;
   steps[next++] = {&xpbd_predict, Block::substep};
+  steps[next++] = {&xpbd_pins, Block::substep};
   for (std::uint32_t item = 0; item < kSpringColours; ++item)
     steps[next++] = {&xpbd_spring, Block::substep, 0, item};
   for (std::uint32_t item = 0; item < kBendColours; ++item)
     steps[next++] = {&xpbd_bend, Block::substep, 0, item};
   steps[next++] = {&xpbd_finish, Block::substep};
+  steps[next++] = {&pin_place, Block::substep};
   steps[next++] = {&normals, Block::frame_end};
   return steps;
 }();

@@ -121,6 +121,7 @@ State carry_state(const Model& from, const State& state, const Model& to) {
     if (old != std::numeric_limits<std::uint32_t>::max())
       next.position[p] = start_to.position[p] + displacement[old];
   }
+  place_moved_pins(to, next);
   return next;
 }
 

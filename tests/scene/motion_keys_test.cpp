@@ -47,6 +47,23 @@ TEST(MotionKeys, ASlipIsRefusedWithItsPlace) {
                  {"\"centre\" is not a key of spheres.0.keys.0; did you mean center?"});
 }
 
+TEST(MotionKeys, APinMovesByOffsets) {
+  const std::string pin = "[cloth]\n[[pins]]\nat = [0, 0]\n";
+  const Scene scene =
+      read(pin + "keys = [{ time = 0, offset = [0, 0, 0] }, {time = 1, offset = [0, 2, 0]}]\n").scene;
+  EXPECT_EQ(scene.pins.at(0).keys, (MotionKeys{{0.0, {0, 0, 0}}, {1.0, {0, 2, 0}}}));
+  expect_refused(pin + "keys = [{ time = 0, center = [0, 0, 0] }]\n",
+                 {"scene.toml:4: \"center\" is not a key of pins.0.keys.0", "time and offset"});
+}
+
+TEST(MotionKeys, AtMost64PinsMove) {
+  std::string many = "[cloth]\n";
+  for (int k = 0; k < 64; ++k) many += "[[pins]]\nat = [0, 0]\nkeys = [{ time = 0, offset = [0, 0, 0] }]\n";
+  EXPECT_EQ(refusal(many + "[[pins]]\nat = [1, 1]\n"), "accepted");
+  expect_refused(many + "[[pins]]\nat = [1, 1]\nkeys = [{ time = 0, offset = [0, 0, 0] }]\n",
+                 {"scene.toml:196: pins.64.keys", "65th", "at most the 64th"});
+}
+
 // 10 m in 1/100 s are 1000 m/s, the most there is; a thousandth faster is refused.
 TEST(MotionKeys, HaveAHighestSpeed) {
   const auto to = [](const char* z) {
