@@ -17,10 +17,7 @@ layout(push_constant) uniform Push { uint row_index, item; };
 layout(constant_id = 0) const bool damping = true;
 #include "../shared/dot.glsl"
 
-const uint kStructuralI = 0u, kStructuralJ = 1u, kShearUp = 3u, kFlexI = 4u, kFlexJ = 5u;
-
-// The n-th place of a colour where two of every four belong to it: 0 1 4 5 ..., 2 3 6 7 ...
-uint pair_of_two(uint n, uint colour) { return (n / 2u) * 4u + colour * 2u + n % 2u; }
+#include "../shared/spring_colours.glsl"
 
 void pull(uint pa, uint pb, real3 k) {
   real4 a = position_next[pa], b = position_next[pb];
@@ -53,30 +50,15 @@ void pull(uint pa, uint pb, real3 k) {
 }
 
 void main() {
-  uint kind = item / 2u, colour = item % 2u, nx = params.nx, ny = params.ny;
-  uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
-  uvec2 reach = uvec2(1u, 1u);
-  if (kind == kStructuralI) reach = uvec2(1u, 0u);
-  if (kind == kStructuralJ) reach = uvec2(0u, 1u);
-  if (kind == kFlexI) reach = uvec2(2u, 0u);
-  if (kind == kFlexJ) reach = uvec2(0u, 2u);
-  if (kind == kStructuralJ)
-    j = 2u * j + colour;
-  else if (kind == kFlexI)
-    i = pair_of_two(i, colour);
-  else if (kind == kFlexJ)
-    j = pair_of_two(j, colour);
-  else
-    i = 2u * i + colour;
-  if (i + reach.x >= nx || j + reach.y >= ny) return;
-
+  Spring s;
+  if (!coloured_spring(item, s)) return;
   uint row = kConstraintShear;
-  bool along_i = reach.y == 0u, along_j = reach.x == 0u;
+  bool along_i = s.kind == kStructuralI || s.kind == kFlexI;
+  bool along_j = s.kind == kStructuralJ || s.kind == kFlexJ;
   if (along_i || along_j) {
-    bool boundary = along_i ? (j == 0u || j + 1u == ny) : (i == 0u || i + 1u == nx);
-    row = (kind == kFlexI || kind == kFlexJ ? kConstraintFlex : kConstraintStructural) + (boundary ? 1u : 0u);
+    bool boundary = along_i ? (s.j == 0u || s.j + 1u == params.ny) : (s.i == 0u || s.i + 1u == params.nx);
+    bool far = s.kind == kFlexI || s.kind == kFlexJ;
+    row = (far ? kConstraintFlex : kConstraintStructural) + (boundary ? 1u : 0u);
   }
-  uint own = j * nx + i;
-  bool rising = kind == kShearUp;
-  pull(rising ? own + 1u : own, rising ? own + nx : own + reach.y * nx + reach.x, constraints[row].xyz);
+  pull(s.a, s.b, constraints[row].xyz);
 }

@@ -34,6 +34,7 @@
   ROW(draw_position, 26, vec4, "f64: position rounded to float, as it is drawn")                 \
   ROW(draw_normal, 27, vec4, "f64: normal rounded to float, as it is drawn")                     \
   ROW(queue_heads, 28, uint, "kernel steal: workgroups done, then tiles taken of each queue")    \
-  ROW(moved_pins, 29, MovedPin, "particles of pins that move: anchor [m], particle, pin")
+  ROW(moved_pins, 29, MovedPin, "particles of pins that move: anchor [m], particle, pin")        \
+  ROW(strain_limits, 30, real4, "structural, shear: x = longest [m], y = its square")
 
 #endif

@@ -65,5 +65,10 @@ WEFT_CONST uint kConstraintFlex = 3u;
 WEFT_CONST uint kConstraintBend = 5u;
 WEFT_CONST uint kConstraintRows = 7u;
 
+// The rows of `strain_limits`: x = the longest a spring may be [m], y = its square [m²].
+WEFT_CONST uint kLimitStructural = 0u;
+WEFT_CONST uint kLimitShear = 1u;
+WEFT_CONST uint kLimitRows = 2u;
+
 WEFT_SHARED_END
 #endif

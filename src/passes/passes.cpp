@@ -25,6 +25,7 @@ std::span<const Pass* const> passes() {
                                       &normals,
                                       &pin_place,
                                       &xpbd_pins,
+                                      &strain_limit,
                                       &pair_check,
                                       &cell_count,
                                       &cell_scan,

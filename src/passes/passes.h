@@ -24,8 +24,9 @@ extern const Pass velocity_verlet_compensated;  ///< f32k
 extern const Pass present;                      ///< f64: what is drawn, in float
 extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
-extern const Pass pin_place;  ///< what moving pins hold, put where these are
-extern const Pass xpbd_pins;  ///< XPBD: how far they move it
+extern const Pass pin_place;     ///< what moving pins hold, put where these are
+extern const Pass xpbd_pins;     ///< XPBD: how far they move it
+extern const Pass strain_limit;  ///< springs of one colour that are too long, pulled back
 
 extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
 extern const Pass cell_count;    ///< particles of each bucket of the grid

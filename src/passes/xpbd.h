@@ -1,8 +1,8 @@
-// What the XPBD passes share on the CPU: coefficients of each kind of constraint, and the colours by which
-// constraints of a colour share no particle. docs/solvers.md "xpbd".
+// What the XPBD passes share on the CPU: coefficients of each kind of constraint. docs/solvers.md "xpbd".
 #pragma once
 #include <array>
 
+#include "passes/spring_colours.h"
 #include "passes/substep.h"
 #include "shared/params.h"
 
@@ -24,21 +24,6 @@ ConstraintRows<T> constraint_rows(const Model& model) {
   return rows;
 }
 
-/// An item of xpbd_spring: two colours for each of the six kinds of springs.
-struct SpringColour {
-  SpringName kind;
-  std::uint32_t colour;
-  static SpringColour of(std::uint32_t item) { return {static_cast<SpringName>(item / 2), item % 2}; }
-  bool has(std::uint32_t i, std::uint32_t j) const {
-    switch (kind) {
-      case kStructuralJ: return j % 2 == colour;
-      case kFlexI: return i / 2 % 2 == colour;
-      case kFlexJ: return j / 2 % 2 == colour;
-      default: return i % 2 == colour;  // (1,0) and both diagonals: chains that advance in i
-    }
-  }
-};
-inline constexpr std::uint32_t kSpringColours = 2 * kSpringKindCount;
 inline constexpr std::uint32_t kBendColours = 6;  ///< three along i, three along j
 
 }  // namespace weft

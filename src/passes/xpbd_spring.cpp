@@ -43,47 +43,11 @@ std::size_t row_of(const Grid& grid, SpringName kind, std::uint32_t i, std::uint
   }
 }
 
-/// Calls visit(a, b, row) for each spring of the colour that begins in rows [begin, end). The rising diagonal
-/// is named by its left particle's column, as f_T in docs/float-form.md.
-template <class Visit>
-void for_each_spring_of(const Grid& grid, const SpringColour& springs, std::uint32_t begin, std::uint32_t end,
-                        Visit&& visit) {
-  static constexpr std::uint32_t kReachI[] = {1, 0, 1, 1, 2, 0}, kReachJ[] = {0, 1, 1, 1, 0, 2};
-  const std::uint32_t di = kReachI[springs.kind], dj = kReachJ[springs.kind];
-  for (std::uint32_t j = begin; j < end && j + dj < grid.ny; ++j) {
-    for (std::uint32_t i = 0; i + di < grid.nx; ++i) {
-      if (!springs.has(i, j)) continue;
-      const bool rising = springs.kind == kShearUp;
-      const std::uint32_t a = rising ? grid.index(i + 1, j) : grid.index(i, j);
-      const std::uint32_t b = rising ? grid.index(i, j + 1) : grid.index(i + di, j + dj);
-      visit(a, b, row_of(grid, springs.kind, i, j));
-    }
-  }
-}
-
-/// Two colours of a kind share the lanes of the longer one; lanes beyond the last spring return at once.
-Range item_domain(const Model& m, std::uint32_t item) {
-  const SpringColour springs = SpringColour::of(item);
-  if (m.springs[springs.kind].stiffness_n_m <= 0.0) return {};
-  const std::uint32_t nx = m.grid.nx, ny = m.grid.ny;
-  const auto halves = [](std::uint32_t count) { return (count + 1) / 2; };
-  const auto pairs_of_two = [](std::uint32_t count) { return (count + 3) / 4 * 2; };
-  switch (springs.kind) {
-    case kStructuralI: return {.x = halves(nx), .y = ny};
-    case kStructuralJ: return {.x = nx, .y = halves(ny)};
-    case kFlexI: return {.x = pairs_of_two(nx), .y = ny};
-    case kFlexJ: return {.x = nx, .y = pairs_of_two(ny)};
-    default: return {.x = halves(nx), .y = ny};
-  }
-}
-
 std::uint64_t item_spring_evaluations(const Model& m, std::uint32_t item) {
   std::uint64_t count = 0;
-  for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.ny,
-                     [&](std::uint32_t a, std::uint32_t b, std::size_t) {
-                       const bool free = m.relative_inverse_mass[a] + m.relative_inverse_mass[b] > 0.0;
-                       count += free ? 1 : 0;
-                     });
+  for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.ny, [&](const ColouredSpring& spring) {
+    count += m.relative_inverse_mass[spring.a] + m.relative_inverse_mass[spring.b] > 0.0 ? 1 : 0;
+  });
   return count;
 }
 
@@ -118,15 +82,17 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const T step_s = static_cast<T>(context.row.drift_s);
   const T inverse_mass = static_cast<T>(1.0 / model.interior_mass_kg);
   const bool damped = context.constants[0].value != 0;
+  const SpringColour colour = SpringColour::of(context.item);
   parallel_rows(model.grid.ny, model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for_each_spring_of(model.grid, SpringColour::of(context.item), begin, end,
-                       [&](std::uint32_t a, std::uint32_t b, std::size_t row) {
-                         const Vec3<T> d0 = xyz(start[b]) - xyz(start[a]);
-                         if (damped)
-                           pull<T, true>(rows[row], step_s, inverse_mass, d0, moved[a], moved[b]);
-                         else
-                           pull<T, false>(rows[row], step_s, inverse_mass, d0, moved[a], moved[b]);
-                       });
+    for_each_spring_of(model.grid, colour, begin, end, [&](const ColouredSpring& spring) {
+      const auto& row = rows[row_of(model.grid, colour.kind, spring.i, spring.j)];
+      glm::vec<4, T>&a = moved[spring.a], &b = moved[spring.b];
+      const Vec3<T> d0 = xyz(start[spring.b]) - xyz(start[spring.a]);
+      if (damped)
+        pull<T, true>(row, step_s, inverse_mass, d0, a, b);
+      else
+        pull<T, false>(row, step_s, inverse_mass, d0, a, b);
+    });
   });
 }
 
@@ -140,7 +106,7 @@ const Pass xpbd_spring{
     .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .item_domain = item_domain,
+    .item_domain = spring_colour_range,
     .item_spring_evaluations = item_spring_evaluations,
 };
 

@@ -24,6 +24,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::params: return 1;
     case BufferId::compensation: return 2 * std::uint64_t{model.grid.count()};
     case BufferId::constraints: return shared::kConstraintRows;
+    case BufferId::strain_limits: return shared::kLimitRows;
     case BufferId::substeps: return std::uint64_t{substep_row_capacity(rows)} * substep_row_stride(model);
     case BufferId::collision: return 1;
     case BufferId::moved_pins: return model.moved_particles.size();
@@ -105,6 +106,8 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kXpbdPins = {params, substeps, position_next, moved_pins};
   if (&pass == &pin_place) return kPinPlace;
   if (&pass == &xpbd_pins) return kXpbdPins;
+  static constexpr std::array kStrainLimit = {params, substeps, position, velocity, strain_limits};
+  if (&pass == &strain_limit) return kStrainLimit;
   if (&pass == &normals) return kNormals;
   if (&pass == &pair_check || &pass == &cell_count) return kPairCheck;
   if (&pass == &cell_scan) return kCellScan;

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "passes/integrate.h"
 #include "passes/passes.h"
+#include "passes/strain_limit.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -53,6 +54,7 @@ std::vector<LeftOut> left_out_effects(const Model& model) {
       if (constant.name == effect.constant && constant.value == 0)
         left_out.push_back({effect.name, effect.reason(model.scene)});
   }
+  if (!has_strain_limit(model)) left_out.push_back({"strain limit", "material.strain_limit is 0"});
   if (!model.scene.self_collision) left_out.push_back({"self-collision", absent_section("[self_collision]")});
   return left_out;
 }
@@ -113,6 +115,19 @@ void require_collision(const Model& model, const Solver& solver) {
               model.scene.source, model.scene.self_collision->thickness_m, solver.name);
 }
 
+void require_strain_limit(const Model& model, const Solver& solver) {
+  const auto limits = [](const SolverStep& step) { return step.pass == &strain_limit; };
+  if (!has_strain_limit(model) || std::ranges::any_of(solver.steps, limits)) return;
+  std::string able;
+  for (const Solver* other : solvers())
+    if (std::ranges::any_of(other->steps, limits))
+      able += (able.empty() ? "" : ", ") + std::string(other->name);
+  throw error(
+      Exit::usage,
+      "{}: material.strain_limit is {}: the solver {} has no passes for it; use one of {}, or set it to 0",
+      model.scene.source, model.scene.material.strain_limit, solver.name, able);
+}
+
 }  // namespace
 
 bool has_compensated(const Solver& solver) {
@@ -125,6 +140,7 @@ bool has_compensated(const Solver& solver) {
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
   require_precision(model, solver, precision);
   require_collision(model, solver);
+  require_strain_limit(model, solver);
   Plan plan{};
   plan.solver = &solver;
   plan.precision = precision;

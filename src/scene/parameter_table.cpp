@@ -150,6 +150,14 @@ const Parameter kTable[] = {
          .about = "cap of each spring's damping ratio, so that fine grids need no tiny steps",
          .example = "0.1"}),
 
+    row<&Scene::material, &MaterialSection::strain_limit>(
+        {.section = "material",
+         .key = "strain_limit",
+         .maximum = 10,
+         .slider_maximum = 0.5,
+         .about = "elongation beyond which springs are pulled back; 0: none, and no pass for it",
+         .example = "a woven cloth: 0.05"}),
+
     row<&Scene::pins, &PinSection::at>(
         {.section = "pins",
          .key = "at",

@@ -39,6 +39,7 @@ struct MaterialSection {
   double bend_n_m = 0.0;            ///< bending rigidity B [N·m]
   double damping_s = 1e-4;
   double damping_ratio_max = 0.1;
+  double strain_limit = 0.0;  ///< largest elongation of structural and shear springs over their rest; 0: none
 
   double shear() const { return shear_n_m.value_or(0.375 * membrane_n_m); }
 };

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "passes/collision.h"
 #include "passes/moved_pins.h"
+#include "passes/strain_limit.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
 
@@ -44,6 +45,10 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
       const auto pins = make_moved_pins<T>(model);
       return bytes_of(std::span<const shared::MovedPinOf<T>>(pins));
     }
+    if (id == BufferId::strain_limits) {
+      const auto limits = strain_limit_rows<T>(model);
+      return bytes_of(std::span<const glm::vec<4, T>>(limits));
+    }
     if (id == BufferId::constraints) {
       ConstraintRows<T> constraints = constraint_rows<T>(model);
       perturbation.apply(constraints);
@@ -68,8 +73,8 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
 
 void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
                   const Perturbation& perturbation) {
-  for (const BufferId id :
-       {BufferId::params, BufferId::constraints, BufferId::collision, BufferId::moved_pins}) {
+  for (const BufferId id : {BufferId::params, BufferId::constraints, BufferId::collision,
+                            BufferId::moved_pins, BufferId::strain_limits}) {
     if (!buffers.has(id)) continue;
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);

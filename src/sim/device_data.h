@@ -19,7 +19,7 @@ auto in_precision(const Plan& plan, Work&& work) {
 }
 
 /// A block that follows from the model alone.
-/// @param id  params, constraints, collision or moved_pins
+/// @param id  params, constraints, collision, moved_pins or strain_limits
 Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = {});
 
 /// The substep table with these rows.

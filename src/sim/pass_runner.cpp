@@ -32,6 +32,12 @@ void fill_poison(BufferId id, std::span<std::byte> bytes) {
   fill_bytes(bytes, poison<T>());
 }
 
+/// Whether the model alone says what is in the buffer.
+bool is_block(BufferId id) {
+  using enum BufferId;
+  return id == params || id == constraints || id == collision || id == moved_pins || id == strain_limits;
+}
+
 /// Of a device's buffer of type E.
 template <class T, class E>
 std::vector<T> elements_in(std::span<const std::byte> bytes) {
@@ -81,8 +87,7 @@ std::map<BufferId, Bytes> PassRunner::contents(std::size_t step, const HostBuffe
     const auto put = [&](std::span<const std::byte> from) {
       std::memcpy(bytes.data(), from.data(), std::min(bytes.size(), from.size()));
     };
-    if (id == BufferId::params || id == BufferId::constraints || id == BufferId::collision ||
-        id == BufferId::moved_pins)
+    if (is_block(id))
       put(block_bytes(id, model_, plan_, perturbation_));
     else if (id == BufferId::substeps)
       put(table_bytes(model_, plan_, rows, perturbation_));

@@ -1,21 +1,20 @@
 // leapfrog: kick–drift with half kicks at the frame's ends; the default.
-#include <array>
-
-#include "passes/passes.h"
 #include "solvers/list.h"
+#include "solvers/step_list.h"
 #include "solvers/step_rules.h"
 
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{
-    SolverStep{&pair_check, Block::substep},  SolverStep{&cell_count, Block::substep},
-    SolverStep{&cell_scan, Block::substep},   SolverStep{&cell_fill, Block::substep},
-    SolverStep{&cell_sort, Block::substep},   SolverStep{&pair_gather, Block::substep},
-    SolverStep{&touch_count, Block::substep}, SolverStep{&self_contact, Block::substep},
-    SolverStep{&integrate, Block::substep},   SolverStep{&pin_place, Block::substep},
-    SolverStep{&integrate, Block::frame_end},  // the closing half kick
-    SolverStep{&normals, Block::frame_end}};
+constexpr auto kSteps = joined_steps(
+    std::array{SolverStep{&pair_check, Block::substep}, SolverStep{&cell_count, Block::substep},
+               SolverStep{&cell_scan, Block::substep}, SolverStep{&cell_fill, Block::substep},
+               SolverStep{&cell_sort, Block::substep}, SolverStep{&pair_gather, Block::substep},
+               SolverStep{&touch_count, Block::substep}, SolverStep{&self_contact, Block::substep},
+               SolverStep{&integrate, Block::substep}},
+    kAfterDrift,
+    std::array{SolverStep{&integrate, Block::frame_end},  // the closing half kick
+               SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

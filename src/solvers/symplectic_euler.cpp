@@ -1,16 +1,14 @@
 // symplectic-euler: leapfrog's pass without half kicks. As cheap and as stable; velocities lag by half a
 // step.
-#include <array>
-
-#include "passes/passes.h"
 #include "solvers/list.h"
+#include "solvers/step_list.h"
 #include "solvers/step_rules.h"
 
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{SolverStep{&integrate, Block::substep}, SolverStep{&pin_place, Block::substep},
-                            SolverStep{&normals, Block::frame_end}};
+constexpr auto kSteps = joined_steps(std::array{SolverStep{&integrate, Block::substep}}, kAfterDrift,
+                                     std::array{SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

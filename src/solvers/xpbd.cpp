@@ -6,27 +6,28 @@
 #include <array>
 #include <limits>
 
-#include "passes/passes.h"
 #include "solvers/list.h"
+#include "solvers/step_list.h"
 #include "solvers/step_rules.h"
 
 namespace weft {
 namespace {
 
-constexpr auto kSteps = [] {
-  std::array<SolverStep, 5 + kSpringColours + kBendColours> steps{};
+/// One sweep: each colour of springs, then each of bending triples.
+constexpr auto kSweep = [] {
+  std::array<SolverStep, kSpringColours + kBendColours> steps{};
   std::size_t next = 0;
-  steps[next++] = {&xpbd_predict, Block::substep};
-  steps[next++] = {&xpbd_pins, Block::substep};
   for (std::uint32_t item = 0; item < kSpringColours; ++item)
     steps[next++] = {&xpbd_spring, Block::substep, 0, item};
   for (std::uint32_t item = 0; item < kBendColours; ++item)
     steps[next++] = {&xpbd_bend, Block::substep, 0, item};
-  steps[next++] = {&xpbd_finish, Block::substep};
-  steps[next++] = {&pin_place, Block::substep};
-  steps[next++] = {&normals, Block::frame_end};
   return steps;
 }();
+
+constexpr auto kSteps = joined_steps(
+    std::array{SolverStep{&xpbd_predict, Block::substep}, SolverStep{&xpbd_pins, Block::substep}}, kSweep,
+    std::array{SolverStep{&xpbd_finish, Block::substep}}, kAfterDrift,
+    std::array{SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <optional>
 
 #include "scene/parameters.h"
 
@@ -30,6 +31,14 @@ bool moves_the_cloth(const Parameter& row) {
   return !row.section.empty() && row.section != "expect" && row.key != "preset";
 }
 
+/// The value with which a key says that its effect is not there; scenes without it keep the words they had
+/// before the key came.
+std::optional<ParameterValue> absent_value(const Parameter& row) {
+  if (row.kind == ParameterKind::keys) return MotionKeys{};
+  if (row.section == "material" && row.key == "strain_limit") return 0.0;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string canonical_scene(const Scene& scene) {
@@ -37,7 +46,7 @@ std::string canonical_scene(const Scene& scene) {
   for (const Parameter& row : parameters()) {
     if (!moves_the_cloth(row) || !has_section(scene, row.section)) continue;
     for (std::size_t item = 0; item < item_count(scene, row.section); ++item) {
-      if (row.kind == ParameterKind::keys && row.get(scene, item) == ParameterValue(MotionKeys{})) continue;
+      if (row.get(scene, item) == absent_value(row)) continue;
       text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key,
                           std::visit(ExactText{}, row.get(scene, item)));
     }
