@@ -35,6 +35,10 @@
   ROW(draw_normal, 27, vec4, "f64: normal rounded to float, as it is drawn")                     \
   ROW(queue_heads, 28, uint, "kernel steal: workgroups done, then tiles taken of each queue")    \
   ROW(moved_pins, 29, MovedPin, "particles of pins that move: anchor [m], particle, pin")        \
-  ROW(strain_limits, 30, real4, "structural, shear: x = longest [m], y = its square")
+  ROW(strain_limits, 30, real4, "structural, shear: x = longest [m], y = its square")            \
+  ROW(watch_parts, 31, uint, "fastest particle and energy of each piece of the cloth (watch.h)") \
+  ROW(watch_state, 32, uint, "whether the state is sound, and what was found (watch.h)")         \
+  ROW(kept_position, 33, real4, "m, of the last state that was sound")                           \
+  ROW(kept_velocity, 34, real4, "m/s, of the last state that was sound")
 
 #endif

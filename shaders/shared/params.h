@@ -28,6 +28,8 @@ WEFT_REAL_STRUCT(Params) {
   uint nx, ny;  // particles along i and j
   uint sphere_count;
   uint row_stride;  // real4s from one row of the substep table to the next
+  // What watch.h's kWatchWhole is of m/m0·v²; the host writes it each frame. 0: energy is not looked at.
+  real energy_share_s2_m2;
 };
 #ifdef __cplusplus
 using Params = ParamsOf<float>;

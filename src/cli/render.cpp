@@ -5,6 +5,7 @@
 
 #include "cli/choose.h"
 #include "cli/command.h"
+#include "cli/divergence.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/setup.h"
@@ -95,20 +96,16 @@ Outcome film_scene(const Options& o, const Machine& machine, OffscreenRenderer& 
   const Scene& scene = simulation.model().scene;
   Outcome outcome;
   Progress progress(scene.title.empty() ? "rendering" : scene.title, o.quiet);
-  std::uint64_t looked = 0;
-  const auto look = [&](std::uint64_t frame, bool last) {
-    if (frame % look_every(machine) == 0 || last) {
-      outcome.state = simulation.read();
-      require_finite(simulation.model(), outcome.state, frame, looked);
-      looked = frame;
-    }
+  const auto look = [&](bool last) {
+    if (last) outcome.state = simulation.read();
+    stop_if_diverged(simulation, std::nullopt);
     film.see(renderer, machine);
   };
   const auto began = std::chrono::steady_clock::now();
-  look(0, false);
+  look(true);  // all there is of a run without frames
   run_for(simulation, run_s, [&](std::uint64_t done, std::uint64_t total, const FrameStats& stats) {
     outcome.spring_evaluations += stats.spring_evaluations;
-    look(done, done == total || interrupted());
+    look(done == total || interrupted());
     progress.show(done, total);
     return !interrupted();
   });

@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "gpu/log.h"
 #include "gpu/shader.h"
-#include "model/measures.h"
 
 namespace weft::cli {
 namespace {
@@ -93,24 +92,6 @@ void report_validation(const gpu::Device* device) {
   throw error(Exit::internal,
               "the validation layer gave {} messages; this is a bug of Weft, please report it",
               device->validation_messages().size());
-}
-
-std::uint64_t look_every(const Machine& machine) { return machine.on_gpu != nullptr ? 60 : 1; }
-
-void require_finite(const Model& model, const State& state, std::uint64_t frame, std::uint64_t looked) {
-  std::uint32_t particle = 0;
-  if (all_finite(state, &particle)) return;
-  const std::string since =
-      looked + 1 < frame ? fmt::format("between frames {} and {}; ", looked + 1, frame) : std::string();
-  const bool automatic = model.scene.solver.substeps == 0;
-  throw error(
-      Exit::diverged,
-      "{}: the simulation diverged: {}after frame {} (t = {:.6g} s) particle {} (i = {}, j = {}) is not "
-      "finite; {}",
-      model.scene.source, since, frame, state.time_s, particle, particle % model.grid.nx,
-      particle / model.grid.nx,
-      automatic ? "use more substeps than the automatic ones, or another solver (weft solvers)"
-                : "use more substeps (--substeps auto follows the stability limit)");
 }
 
 void note(const Options& o, const std::string& text) {

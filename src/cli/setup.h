@@ -57,14 +57,6 @@ Machine start(const Options&, const Setup&, double run_s);
 /// @throws Error(Exit::internal) when there is any: it is a mistake in Weft
 void report_validation(const gpu::Device*);
 
-/// Frames from one look at the state to the next: reading it back makes a device wait, so there it is done
-/// once a second of frames; on the CPU after each.
-std::uint64_t look_every(const Machine&);
-
-/// @param looked  the last frame before at which the state was finite
-/// @throws Error(Exit::diverged) naming frame, particle and cure when a number of the state is not finite
-void require_finite(const Model&, const State&, std::uint64_t frame, std::uint64_t looked);
-
 /// A line on stderr, unless `--quiet`.
 void note(const Options&, const std::string& text);
 

@@ -5,6 +5,7 @@
 
 #include "cli/choose.h"
 #include "cli/command.h"
+#include "cli/divergence.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/setup.h"
@@ -35,23 +36,24 @@ double run_time_s(const Options& o, const Scene& scene) {
   return run_s;
 }
 
-/// Called after every frame: reads the state where somebody wants it, looks for divergence, feeds the writer,
-/// makes the scene's checks when due.
+/// Called after every frame: asks whether the run has diverged, reads the state where somebody wants it,
+/// feeds the writer, makes the scene's checks when due.
 class FrameWatch {
  public:
-  FrameWatch(const Options& o, const Setup& setup, double run_s, StateOutput* output, std::uint64_t every)
+  FrameWatch(const Options& o, const Setup& setup, double run_s, StateOutput* output)
       : check_(o.check),
         model_(setup.model),
         output_(output),
-        every_(output != nullptr && output->takes_every_frame() ? 1 : every),
+        out_(o.out),
         check_s_(expect_time_s(setup.scene(), run_s) - 1e-6 * setup.scene().solver.frame_s) {}
 
-  void see(Simulation& simulation, std::uint64_t frame, bool last, Outcome& outcome) {
+  void see(Simulation& simulation, bool last, Outcome& outcome) {
+    stop_if_diverged(simulation, out_);
     const bool check_due = check_ && !checked_ && simulation.time_s() >= check_s_;
-    if (frame % every_ != 0 && !last && !check_due) return;
+    const bool every = output_ != nullptr && output_->takes_every_frame();
+    if (!every && !last && !check_due) return;
     State state = simulation.read();
-    require_finite(model_, state, frame, looked_);
-    looked_ = frame;
+    stop_if_diverged(simulation, out_);  // by now the device has judged this very state
     if (output_ != nullptr) output_->frame(state);
     if (check_due) {
       outcome.verdicts = check_expectations(model_, state);
@@ -64,7 +66,7 @@ class FrameWatch {
   bool check_, checked_ = false;
   const Model& model_;
   StateOutput* output_;
-  std::uint64_t every_, looked_ = 0;  ///< frames from look to look; the last look
+  std::optional<std::filesystem::path> out_;
   double check_s_;
 };
 
@@ -72,12 +74,12 @@ Outcome simulate_scene(const Options& o, Simulation& simulation, double run_s, F
   Outcome outcome;
   const std::string& title = simulation.model().scene.title;
   Progress progress(title.empty() ? "simulating" : title, o.quiet);
-  watch.see(simulation, 0, false, outcome);
+  watch.see(simulation, true, outcome);  // all there is of a run without frames
   const auto began = std::chrono::steady_clock::now();
   run_for(simulation, run_s, [&](std::uint64_t done, std::uint64_t total, const FrameStats& stats) {
     if (done == 1) outcome.frame = stats;
     outcome.spring_evaluations += stats.spring_evaluations;
-    watch.see(simulation, done, done == total || interrupted(), outcome);
+    watch.see(simulation, done == total || interrupted(), outcome);
     progress.show(done, total);
     return !interrupted();
   });
@@ -131,7 +133,7 @@ Exit run_simulate(const Options& asked) {
   stop_between_frames();
   if (o.out) output = std::make_unique<StateOutput>(*o.out, setup.model);
   Machine machine = start(o, setup, run_s);
-  FrameWatch watch(o, setup, run_s, output.get(), look_every(machine));
+  FrameWatch watch(o, setup, run_s, output.get());
   const Outcome outcome = simulate_scene(o, *machine.simulation, run_s, watch);
   report_validation(machine.device.get());
   if (output) output->finish(outcome.state);

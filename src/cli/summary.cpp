@@ -14,11 +14,11 @@ std::string human_line(const Scene& scene, const nlohmann::ordered_json& s, cons
   const std::string name = scene.title.empty() ? scene.source : scene.title;
   return fmt::format(
       "{} · {} · {} · {} · {} · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
-      "max stretch {:.3g} %{}\n",
+      "max stretch {:.3g} % · hash {}{}\n",
       name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
       counted(s["substeps"].get<std::uint32_t>(), "substep"), s["time_s"].get<double>(),
       s["wall_s"].get<double>(), s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>(),
-      tail);
+      s["hash"].get<std::string>(), tail);
 }
 
 }  // namespace

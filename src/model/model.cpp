@@ -17,25 +17,6 @@ constexpr std::uint64_t kParticlesMax = std::uint64_t{1} << 26;
 
 std::string place(const Scene& scene) { return scene.source.empty() ? "scene" : scene.source; }
 
-Grid build_grid(const Scene& scene) {
-  const ClothSection& cloth = scene.cloth;
-  if (cloth.resolution < 2)
-    throw error(Exit::usage, "{}: cloth.resolution is {}; it must be at least 2", place(scene),
-                cloth.resolution);
-  const double spacing_m = cloth.width_m / (cloth.resolution - 1);
-  const double cells = std::round(cloth.height_m / spacing_m);  // halves away from zero
-  if (!(cells >= 1.0))
-    throw error(Exit::usage,
-                "{}: cloth.height is {} m, less than half a cell of {} m; raise it or cloth.resolution",
-                place(scene), cloth.height_m, spacing_m);
-  if ((cells + 1.0) * cloth.resolution > static_cast<double>(kParticlesMax))
-    throw error(
-        Exit::usage,
-        "{}: cloth.resolution is {}, which makes {} x {} particles; at most {} are possible (lower it)",
-        place(scene), cloth.resolution, cloth.resolution, cells + 1.0, kParticlesMax);
-  return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m};
-}
-
 /// m0/m of a free particle: 1/(e(i)·e(j)).
 std::vector<double> relative_inverse_masses(const Grid& grid) {
   std::vector<double> relative(grid.count());
@@ -132,6 +113,25 @@ std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m,
 }
 
 }  // namespace
+
+Grid build_grid(const Scene& scene) {
+  const ClothSection& cloth = scene.cloth;
+  if (cloth.resolution < 2)
+    throw error(Exit::usage, "{}: cloth.resolution is {}; it must be at least 2", place(scene),
+                cloth.resolution);
+  const double spacing_m = cloth.width_m / (cloth.resolution - 1);
+  const double cells = std::round(cloth.height_m / spacing_m);  // halves away from zero
+  if (!(cells >= 1.0))
+    throw error(Exit::usage,
+                "{}: cloth.height is {} m, less than half a cell of {} m; raise it or cloth.resolution",
+                place(scene), cloth.height_m, spacing_m);
+  if ((cells + 1.0) * cloth.resolution > static_cast<double>(kParticlesMax))
+    throw error(
+        Exit::usage,
+        "{}: cloth.resolution is {}, which makes {} x {} particles; at most {} are possible (lower it)",
+        place(scene), cloth.resolution, cloth.resolution, cells + 1.0, kParticlesMax);
+  return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m};
+}
 
 Model build_model(const Scene& scene) {
   Model model;

@@ -69,6 +69,9 @@ struct State {
   double time_s = 0.0;
 };
 
+/// The grid of a scene's cloth: the grid rule of docs/physics.md.
+Grid build_grid(const Scene& scene);
+
 /// @throws Error(Exit::usage) when a pin holds no particle.
 Model build_model(const Scene& scene);
 

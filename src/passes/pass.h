@@ -43,7 +43,8 @@ struct MirrorContext {
   std::span<const Constant> constants;
   const KickDrift& row;
   std::uint32_t row_index = 0;
-  std::uint32_t item = 0;  ///< of the plan's step: which part of the pass's work
+  std::uint32_t item = 0;          ///< of the plan's step: which part of the pass's work
+  double speed_allowed_m_s = 0.0;  ///< at the frame's end, of SpeedBudget; 0: any
 };
 
 struct Pass {

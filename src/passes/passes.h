@@ -27,6 +27,9 @@ extern const Pass normals;                      ///< vertex normals from the adj
 extern const Pass pin_place;     ///< what moving pins hold, put where these are
 extern const Pass xpbd_pins;     ///< XPBD: how far they move it
 extern const Pass strain_limit;  ///< springs of one colour that are too long, pulled back
+extern const Pass watch;         ///< divergence: the fastest particle and the energy of each piece
+extern const Pass judge;         ///< whether the state is sound
+extern const Pass keep_sound;    ///< the last state that was
 
 extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
 extern const Pass cell_count;    ///< particles of each bucket of the grid
@@ -36,6 +39,9 @@ extern const Pass cell_sort;     ///< in ascending order
 extern const Pass pair_gather;   ///< lists of pairs within limit and skin
 extern const Pass touch_count;   ///< pairs nearer than their limit
 extern const Pass self_contact;  ///< pushes them apart
+
+/// Whether the pass is one of the three that look for divergence at every frame's end.
+bool watches(const Pass& pass);
 
 /// All of them; `validate` walks this list.
 std::span<const Pass* const> passes();

@@ -7,7 +7,7 @@
 namespace weft {
 
 template <class T>
-shared::ParamsOf<T> make_params(const Model& model) {
+shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
   const Scene& scene = model.scene;
   if (scene.spheres.size() > shared::kMaxSpheres)
     throw error(Exit::usage, "{}: there are {} [[spheres]]; at most {} are possible (remove some)",
@@ -26,6 +26,7 @@ shared::ParamsOf<T> make_params(const Model& model) {
   params.nx = model.grid.nx;
   params.ny = model.grid.ny;
   params.sphere_count = static_cast<shared::uint>(scene.spheres.size());
+  params.energy_share_s2_m2 = static_cast<T>(energy_share_s2_m2);
   params.row_stride = shared::kRowHeadVec4s + shared::kRowSphereVec4s * params.sphere_count +
                       shared::kRowPinVec4s * static_cast<shared::uint>(model.moved_pins.size());
   return params;
@@ -102,8 +103,8 @@ State store_state(const HostBuffers<T>& buffers, double time_s) {
   return state;
 }
 
-template shared::ParamsOf<float> make_params(const Model&);
-template shared::ParamsOf<double> make_params(const Model&);
+template shared::ParamsOf<float> make_params(const Model&, double);
+template shared::ParamsOf<double> make_params(const Model&, double);
 template void fill_substep_rows(const Model&, std::span<const KickDrift>, std::vector<glm::vec<4, float>>&);
 template void fill_substep_rows(const Model&, std::span<const KickDrift>, std::vector<glm::vec<4, double>>&);
 template void load_state(const Model&, const State&, HostBuffers<float>&);

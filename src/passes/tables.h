@@ -10,9 +10,10 @@
 namespace weft {
 
 /// Everything in it is computed in double and rounded once.
+/// @param energy_share_s2_m2  of the frame (model/speed_budget.h)
 /// @throws Error(Exit::usage) when the scene has more spheres than shared::kMaxSpheres
 template <class T = float>
-shared::ParamsOf<T> make_params(const Model& model);
+shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2 = 0.0);
 
 /// The words of collision_state before the first substep: no lists are there yet.
 std::vector<std::uint32_t> initial_collision_state(const Grid& grid);

@@ -31,6 +31,8 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::collision_state: return shared::kCollisionStateWords;
     case BufferId::cells: return collision_layout(model).buckets + std::uint64_t{1};
     case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
+    case BufferId::watch_state: return shared::kWatchStateWords;
+    case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
     default:  // one element a particle
       return model.grid.count();
   }
@@ -108,7 +110,13 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &xpbd_pins) return kXpbdPins;
   static constexpr std::array kStrainLimit = {params, substeps, position, velocity, strain_limits};
   if (&pass == &strain_limit) return kStrainLimit;
+  static constexpr std::array kWatch = {params, position, velocity, watch_parts};
+  static constexpr std::array kJudge = {params, watch_parts, watch_state};
+  static constexpr std::array kKeep = {params, position, velocity, watch_state, kept_position, kept_velocity};
   if (&pass == &normals) return kNormals;
+  if (&pass == &watch) return kWatch;
+  if (&pass == &judge) return kJudge;
+  if (&pass == &keep_sound) return kKeep;
   if (&pass == &pair_check || &pass == &cell_count) return kPairCheck;
   if (&pass == &cell_scan) return kCellScan;
   if (&pass == &cell_fill) return kCellFill;

@@ -1,6 +1,7 @@
 // Model × Solver → Plan: which steps, over what, with which constants; the buffers they need; what was
 // left out and why.
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "core/error.h"
@@ -71,24 +72,30 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
   return buffers;
 }
 
+/// What every plan ends its frames with, whatever the solver.
+constexpr std::array kEveryFrame{SolverStep{&watch, Block::frame_end}, SolverStep{&judge, Block::frame_end},
+                                 SolverStep{&keep_sound, Block::frame_end}};
+
 std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::uint32_t substeps,
                                 bool compensated) {
   std::vector<PlanStep> steps;
+  const auto add = [&](const SolverStep& step) {
+    const Pass& pass = compensated && step.pass->compensated ? *step.pass->compensated : *step.pass;
+    const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
+    if (range.empty()) return;
+    const std::uint64_t springs = pass.item_spring_evaluations
+                                      ? pass.item_spring_evaluations(model, step.item)
+                                      : pass.spring_evaluations(model);
+    const bool sparse = step.block == Block::substep && pass.interval != nullptr;
+    const std::uint32_t interval = sparse ? pass.interval(model, model.scene.solver.frame_s / substeps) : 1;
+    const std::uint32_t repeat = step.block == Block::substep ? (substeps - 1) / interval + 1 : 1;
+    steps.push_back(
+        {&pass, step.block, repeat, range, pass.constants(model), step.row, step.item, springs, interval});
+  };
   for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
-    for (const SolverStep& step : solver.steps) {
-      if (step.block != block) continue;
-      const Pass& pass = compensated && step.pass->compensated ? *step.pass->compensated : *step.pass;
-      const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
-      if (range.empty()) continue;
-      const std::uint64_t springs = pass.item_spring_evaluations
-                                        ? pass.item_spring_evaluations(model, step.item)
-                                        : pass.spring_evaluations(model);
-      const bool sparse = block == Block::substep && pass.interval != nullptr;
-      const std::uint32_t interval = sparse ? pass.interval(model, model.scene.solver.frame_s / substeps) : 1;
-      const std::uint32_t repeat = block == Block::substep ? (substeps - 1) / interval + 1 : 1;
-      steps.push_back(
-          {&pass, block, repeat, range, pass.constants(model), step.row, step.item, springs, interval});
-    }
+    for (const SolverStep& step : solver.steps)
+      if (step.block == block) add(step);
+  for (const SolverStep& step : kEveryFrame) add(step);
   return steps;
 }
 

@@ -21,7 +21,7 @@ Allowance allowance(const Difference& lost, std::size_t count, std::size_t held)
 template Allowance allowance<float>(const Difference&, std::size_t, std::size_t);
 template Allowance allowance<double>(const Difference&, std::size_t, std::size_t);
 
-void judge(ValidationRow& row, const Difference& apart, const std::optional<Allowance>& allowed) {
+void give_verdict(ValidationRow& row, const Difference& apart, const std::optional<Allowance>& allowed) {
   row.max_abs = apart.max_abs;
   row.rms = apart.rms;
   row.bias = apart.bias;

@@ -26,7 +26,7 @@ template <class T>
 Allowance allowance(const Difference& lost, std::size_t count, std::size_t held);
 
 /// Fills in the verdict of a comparison from its difference; without an allowance it must be exact.
-void judge(ValidationRow& row, const Difference& apart, const std::optional<Allowance>& allowed);
+void give_verdict(ValidationRow& row, const Difference& apart, const std::optional<Allowance>& allowed);
 
 /// Integers must be equal on every device.
 void judge_words(ValidationRow& row, const std::vector<std::uint32_t>& got,

@@ -1,7 +1,9 @@
 // What the host computes for a plan's buffers and reads back from them, in the plan's precision.
 #include "sim/device_data.h"
 
+#include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "passes/collision.h"
@@ -35,7 +37,8 @@ HostBuffers<T> sized_for_state(const GpuBuffers& buffers, const Model& model, co
 
 }  // namespace
 
-Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Perturbation& perturbation) {
+Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Perturbation& perturbation,
+                  double energy_share_s2_m2) {
   return in_precision(plan, [&]<class T>(T) -> Bytes {
     if (id == BufferId::collision) {
       const auto collision = make_collision<T>(model);
@@ -55,7 +58,7 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
       return bytes_of(std::span<const glm::vec<4, T>>(constraints));
     }
     WEFT_ASSERT(id == BufferId::params);
-    auto params = make_params<T>(model);
+    auto params = make_params<T>(model, energy_share_s2_m2);
     perturbation.apply(model, params);
     return bytes_of(std::span<const shared::ParamsOf<T>>(&params, 1));
   });
@@ -98,6 +101,27 @@ State read_state(const GpuBuffers& buffers, Parity parity, const Model& model, c
     for (const BufferId id : state_buffers(buffers))
       buffers.at(at_parity(id, parity)).read(std::as_writable_bytes(std::span(host[id])));
     return store_state(host, time_s);
+  });
+}
+
+void write_energy_share(GpuBuffers& buffers, std::uint32_t slot, const Plan& plan,
+                        double energy_share_s2_m2) {
+  in_precision(plan, [&]<class T>(T) {
+    const T share = static_cast<T>(energy_share_s2_m2);
+    buffers.at(BufferId::params, slot)
+        .write(std::as_bytes(std::span(&share, 1)), offsetof(shared::ParamsOf<T>, energy_share_s2_m2));
+  });
+}
+
+State read_kept(const GpuBuffers& buffers, const Model& model, const Plan& plan, double time_s) {
+  return in_precision(plan, [&]<class T>(T) {
+    HostBuffers<T> kept;
+    for (const auto& [from, to] : {std::pair{BufferId::kept_position, BufferId::position},
+                                   std::pair{BufferId::kept_velocity, BufferId::velocity}}) {
+      kept[to].resize(model.grid.count());
+      buffers.at(from).read(std::as_writable_bytes(std::span(kept[to])));
+    }
+    return store_state(kept, time_s);
   });
 }
 

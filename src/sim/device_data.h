@@ -19,8 +19,10 @@ auto in_precision(const Plan& plan, Work&& work) {
 }
 
 /// A block that follows from the model alone.
-/// @param id  params, constraints, collision, moved_pins or strain_limits
-Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = {});
+/// @param id                  params, constraints, collision, moved_pins or strain_limits
+/// @param energy_share_s2_m2  of the parameters (model/speed_budget.h)
+Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = {},
+                  double energy_share_s2_m2 = 0.0);
 
 /// The substep table with these rows.
 Bytes table_bytes(const Model&, const Plan&, std::span<const KickDrift> rows, const Perturbation& = {});
@@ -33,6 +35,12 @@ void write_state(GpuBuffers&, Parity, const Model&, const Plan&, const State&);
 
 /// @param time_s  that the state is to have
 State read_state(const GpuBuffers&, Parity, const Model&, const Plan&, double time_s);
+
+/// Writes what `energy_share_s2_m2` of the parameters is in the slot's frame.
+void write_energy_share(GpuBuffers&, std::uint32_t slot, const Plan&, double energy_share_s2_m2);
+
+/// The last sound state. @param time_s  that it is to have
+State read_kept(const GpuBuffers&, const Model&, const Plan&, double time_s);
 
 /// Puts pinned particles where they are to be; a run of consecutive indices is one write.
 /// @throws Error(Exit::internal) when one of them is not pinned

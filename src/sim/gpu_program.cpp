@@ -7,14 +7,31 @@
 
 #include "core/error.h"
 #include "passes/passes.h"
+#include "scene/grid_rule.h"
 
 namespace weft {
 namespace {
 
-/// Particles of the cloth at another resolution: the grid rule of docs/physics.md.
-std::uint64_t particles_at(const Scene& scene, std::uint32_t resolution) {
-  const double spacing_m = scene.cloth.width_m / (resolution - 1);
-  return resolution * static_cast<std::uint64_t>(std::llround(scene.cloth.height_m / spacing_m) + 1);
+/// Bytes that the plan's buffers take for the cloth at some resolution.
+struct Need {
+  std::uint64_t total = 0, largest = 0;  ///< all of them; the largest single one
+};
+
+/// Nothing where the cloth would have one row only.
+std::optional<Need> need_at(const Model& model, const Plan& plan, std::uint32_t resolution) {
+  Model other;
+  other.scene = model.scene;
+  other.scene.cloth.resolution = resolution;
+  if (rows_along_height(other.scene.cloth) < 2.0) return std::nullopt;
+  other.grid = build_grid(other.scene);
+  other.half_thickness_m = model.half_thickness_m;
+  Need need;
+  for (const PlanBuffer& buffer : plan.buffers) {
+    const std::uint64_t bytes = slot_bytes(buffer.id, other, plan.row_count(), plan.in_double());
+    need.largest = std::max(need.largest, bytes);
+    need.total += bytes * slot_count(buffer.id);
+  }
+  return need;
 }
 
 VkBufferUsageFlags usage_of(BufferId id) {
@@ -35,6 +52,9 @@ VkBufferUsageFlags usage_of(BufferId id) {
   }
 }
 
+/// What the host writes or reads every frame, without a copy between; devices seldom touch it.
+bool host_reaches(BufferId id) { return host_written(id) || id == BufferId::watch_state; }
+
 }  // namespace
 
 void require_precision(const gpu::Device& device, const Model& model, const Plan& plan) {
@@ -46,24 +66,23 @@ void require_precision(const gpu::Device& device, const Model& model, const Plan
 void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
   const std::uint64_t range = device.limits().maxStorageBufferRange;
   const std::uint64_t heap = device.info().memory_bytes;
-  std::uint64_t largest = 0, particle_bytes = 0;
-  for (const PlanBuffer& buffer : plan.buffers) {
-    largest = std::max(largest, buffer.bytes / slot_count(buffer.id));
-    if (slot_count(buffer.id) == 1) particle_bytes += buffer.bytes / model.grid.count();
+  const auto fits = [&](const std::optional<Need>& need) {
+    return !need || (need->largest <= range && need->total <= heap);
+  };
+  const std::optional<Need> need = need_at(model, plan, model.grid.nx);
+  if (fits(need)) return;
+  std::uint32_t most = 1, too_many = model.grid.nx;  // bytes grow with the resolution
+  while (too_many - most > 1) {
+    const std::uint32_t middle = most + (too_many - most) / 2;
+    (fits(need_at(model, plan, middle)) ? most : too_many) = middle;
   }
-  if (largest <= range && plan.bytes() <= heap) return;
-  const std::uint64_t fixed = plan.bytes() - particle_bytes * model.grid.count();
-  const std::uint64_t room = heap > fixed ? (heap - fixed) / particle_bytes : 0;
-  const std::uint64_t most =
-      std::min<std::uint64_t>(range / (plan.in_double() ? sizeof(glm::dvec4) : sizeof(glm::vec4)), room);
-  std::uint32_t fits = model.grid.nx;
-  while (fits > 2 && particles_at(model.scene, fits) > most) --fits;
   throw error(Exit::no_device,
               "{}: cloth.resolution {} needs {} bytes, {} of them in one buffer; {} has {} bytes and binds "
-              "at most {} "
-              "at once; the largest resolution that fits is {}",
-              model.scene.source, model.grid.nx, plan.bytes(), largest, device.info().name, heap, range,
-              fits);
+              "at most {} at once; {}",
+              model.scene.source, model.grid.nx, need->total, need->largest, device.info().name, heap, range,
+              most > 1 && need_at(model, plan, most)
+                  ? fmt::format("the largest resolution that fits is {}", most)
+                  : std::string("no resolution of this cloth fits"));
 }
 
 GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan, const Kernel& kernel) {
@@ -76,7 +95,7 @@ GpuBuffers::GpuBuffers(gpu::Device& device, const Model& model, const Plan& plan
       std::string name(row_of(wanted.id).name);
       if (slots > 1) name = fmt::format("{}[{}]", name, slot);
       copies.emplace_back(device, std::move(name), wanted.bytes / slots, usage_of(wanted.id),
-                          slots > 1 ? gpu::Memory::upload : gpu::Memory::device);
+                          host_reaches(wanted.id) ? gpu::Memory::upload : gpu::Memory::device);
     }
   }
   if (const std::optional<KernelScratch> scratch = scratch_of(kernel, plan)) {

@@ -5,12 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <glm/geometric.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
+#include "model/speed_budget.h"
+#include "passes/collision.h"
+#include "passes/passes.h"
 #include "passes/tables.h"
 #include "sim/device_data.h"
 #include "sim/frame_commands.h"
+#include "sim/frame_log.h"
 #include "sim/perturb.h"
 #include "sim/submit_pacer.h"
 
@@ -57,7 +63,9 @@ class VulkanSimulation final : public GpuSimulation {
         buffers_(device, model_, plan_, choice_.kernel),
         program_(device, program_plan_, buffers_, pipelines_, choice_.kernel),
         commands_(device, plan_, program_),
-        pacer_(options.dispatches_per_submit) {
+        pacer_(options.dispatches_per_submit),
+        budget_(model_, start_state(model_), plan_.in_double()),
+        free_mass_ratio_(free_mass_ratio(model_)) {
     write_blocks(buffers_, model_, plan_, perturbation_);
     if (model_.scene.self_collision) {
       const std::vector<std::uint32_t> state = initial_collision_state(model_.grid);
@@ -87,6 +95,8 @@ class VulkanSimulation final : public GpuSimulation {
     return plan_.bytes() + scratch_bytes(choice_.kernel, plan_);
   }
   std::optional<SelfCollisionReport> self_collision() override;
+  std::optional<Divergence> divergence() const override { return log_.divergence(); }
+  std::optional<State> last_good() override;
   std::uint32_t submit_count() const override { return submits_; }
   std::vector<double> step_ms() const override { return step_ms_; }
   DrawBuffers draw_buffers() const override {
@@ -97,6 +107,7 @@ class VulkanSimulation final : public GpuSimulation {
   }
   void wait() override {
     for (Slot& slot : slots_) finish(slot);
+    look();
   }
 
   FrameStats advance(double frame_s, std::uint32_t substeps) override;
@@ -126,6 +137,13 @@ class VulkanSimulation final : public GpuSimulation {
     perturbation.apply(plan);
     return plan;
   }
+  /// What of the parameters changes with time.
+  void write_allowance(std::uint32_t slot);
+  /// Takes in the device's verdict as it is by now.
+  void look();
+  enum class Watched { yes, no };
+  /// Runs what follows a frame's last kick on the state as it is; with the watch or without.
+  void run_frame_end(Watched watched);
   void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
   void submit(FrameCommands::Chunk& chunk, Slot& slot);
   void finish(Slot& slot);
@@ -144,6 +162,10 @@ class VulkanSimulation final : public GpuSimulation {
   SubmitPacer pacer_;
   std::array<Slot, kFrameSlots> slots_;
   Frame frame_;
+  FrameLog log_;
+  SpeedBudget budget_;
+  double free_mass_ratio_;
+  double hand_m_s_ = 0.0;  // speed of the fastest particle placed since the latest frame began
   std::vector<double> step_ms_;
   Parity parity_ = 0;
   std::uint64_t frames_ = 0;
@@ -157,6 +179,16 @@ std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
   std::array<std::uint32_t, shared::kCollisionStateWords> words{};
   buffers_.at(BufferId::collision_state).read(std::as_writable_bytes(std::span(words)));
   return report_of(words);
+}
+
+void VulkanSimulation::write_allowance(std::uint32_t slot) {
+  write_energy_share(buffers_, slot, plan_, energy_share_s2_m2(free_mass_ratio_, budget_.allowed_m_s()));
+}
+
+void VulkanSimulation::look() {
+  std::array<std::uint32_t, shared::kWatchStateWords> words{};
+  buffers_.at(BufferId::watch_state).read(std::as_writable_bytes(std::span(words)));
+  log_.look(words);
 }
 
 void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
@@ -217,6 +249,9 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
   finish(slot);
   slot.step_ms.assign(plan_.steps.size(), 0.0);
   write_table(frame_s, substeps, slot_index);
+  budget_.elapse(model_.scene, frame_s, substeps, std::exchange(hand_m_s_, 0.0));
+  write_allowance(slot_index);
+  look();
   frame_ = {.slot = slot_index,
             .substeps = substeps,
             .done = 0,
@@ -251,6 +286,7 @@ void VulkanSimulation::end_frame() {
     frame_.stats.spring_evaluations += dispatch.count * plan_.steps[dispatch.step].spring_evaluations;
   }
   time_s_ = frame_end_s(frame_.start_s, frame_.length_s);
+  log_.end_frame(time_s_, frame_.length_s, frame_.substeps);
   frame_.order.reset();
 }
 
@@ -264,20 +300,38 @@ void VulkanSimulation::write(const State& state) {
   frame_.order.reset();
   write_state(buffers_, parity_, model_, plan_, state);
   time_s_ = state.time_s;
-  refresh_normals();
+  budget_ = SpeedBudget(model_, state, plan_.in_double());
+  write_allowance(0);
+  log_.begin(time_s_);
+  const std::array<std::uint32_t, shared::kWatchStateWords> sound{};
+  buffers_.at(BufferId::watch_state).write(std::as_bytes(std::span(sound)));
+  run_frame_end(Watched::yes);
+  look();
 }
 
 /// What is drawn before the first frame, in the middle of one or after a write needs the normals of that
 /// state.
 void VulkanSimulation::refresh_normals() {
   wait();
+  run_frame_end(Watched::no);
+}
+
+void VulkanSimulation::run_frame_end(Watched watched) {
   device_.run_once([&](VkCommandBuffer commands) {
     gpu::Recorder recorder(device_, commands);
-    for (std::size_t step = 0; step < plan_.steps.size(); ++step)
-      if (plan_.steps[step].block == Block::frame_end && !program_.flips(step))
+    for (std::size_t step = 0; step < plan_.steps.size(); ++step) {
+      if (plan_.steps[step].block != Block::frame_end || program_.flips(step)) continue;
+      if (watched == Watched::yes || !watches(*plan_.steps[step].pass))
         program_.dispatch(recorder, step, parity_, 0, 0);
+    }
     recorder.finish();
   });
+}
+
+std::optional<State> VulkanSimulation::last_good() {
+  wait();
+  if (!log_.sound_time_s()) return std::nullopt;
+  return read_kept(buffers_, model_, plan_, *log_.sound_time_s());
 }
 
 bool VulkanSimulation::adopt(const Model& model) {
@@ -288,7 +342,9 @@ bool VulkanSimulation::adopt(const Model& model) {
   if (new_masses) state = read();
   wait();
   frame_.order.reset();
+  budget_.adopt(model_, model);
   model_ = model;
+  free_mass_ratio_ = free_mass_ratio(model_);
   plan_ = std::move(next);
   write_blocks(buffers_, model_, plan_, perturbation_);
   if (new_masses) write(state);
@@ -297,6 +353,8 @@ bool VulkanSimulation::adopt(const Model& model) {
 
 void VulkanSimulation::place(std::span<const PlacedParticle> particles) {
   wait();
+  for (const PlacedParticle& placed : particles)
+    hand_m_s_ = std::max(hand_m_s_, static_cast<double>(glm::length(placed.velocity_m_s)));
   write_placed(buffers_, parity_, model_, plan_, particles);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "model/speed_budget.h"
+
 namespace weft {
 namespace {
 
@@ -88,7 +90,8 @@ std::map<BufferId, Bytes> PassRunner::contents(std::size_t step, const HostBuffe
       std::memcpy(bytes.data(), from.data(), std::min(bytes.size(), from.size()));
     };
     if (is_block(id))
-      put(block_bytes(id, model_, plan_, perturbation_));
+      put(block_bytes(id, model_, plan_, perturbation_,
+                      energy_share_s2_m2(free_mass_ratio(model_), kProbeSpeedAllowed_m_s)));
     else if (id == BufferId::substeps)
       put(table_bytes(model_, plan_, rows, perturbation_));
     else if (const Use use = use_of(step, id); use.writes && !use.reads)

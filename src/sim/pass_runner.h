@@ -22,6 +22,9 @@ constexpr T poison() {
     return std::bit_cast<T>(kPoison64);
 }
 
+/// What the cloth's mean square speed may be where single passes are checked: some probe states exceed it.
+inline constexpr double kProbeSpeedAllowed_m_s = 2.0;
+
 /// What a single dispatch left behind, of a plan that computes in T.
 template <class T>
 struct PassResult {

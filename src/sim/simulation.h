@@ -8,6 +8,7 @@
 
 #include "model/model.h"
 #include "plan/plan.h"
+#include "sim/divergence.h"
 
 namespace weft {
 
@@ -35,6 +36,13 @@ class Simulation {
   virtual FrameStats advance(double frame_s, std::uint32_t substeps) = 0;
   virtual State read() = 0;              ///< waits for the device
   virtual void write(const State&) = 0;  ///< positions, velocities, time
+  /// What the watch at the frames' ends has found since the latest write(): nothing while all is sound. Does
+  /// not wait; a device's verdict over a frame is known at the latest when the next one has begun, and after
+  /// read() or wait().
+  virtual std::optional<Divergence> divergence() const = 0;
+  /// The state at the end of the latest frame before that; before a divergence, the latest sound one. Nothing
+  /// when there never was one. Waits for the device. In f32k without the compensation.
+  virtual std::optional<State> last_good() = 0;
   virtual std::uint64_t bytes_allocated() const = 0;
   /// Waits for the device. Nothing when the scene has no [self_collision].
   virtual std::optional<SelfCollisionReport> self_collision() = 0;

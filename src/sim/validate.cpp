@@ -150,8 +150,9 @@ void Validator<T>::start_runners(const Perturbation& perturbation) {
 /// Whether the solver keeps more than positions and velocities from one substep to the next, so that the
 /// frame's first substep differs from the others.
 bool keeps_more(const Plan& plan) {
-  return std::ranges::any_of(
-      plan.buffers, [](const PlanBuffer& b) { return b.id > BufferId::normal && !holds_floats(b.id); });
+  return std::ranges::any_of(plan.buffers, [](const PlanBuffer& b) {
+    return b.id > BufferId::normal && b.id < BufferId::draw_position;
+  });
 }
 
 /// Walks through a frame whose state begins as the probe: its start, one substep or two, its end. The mirrors
@@ -222,7 +223,7 @@ void Validator<T>::check_outputs(const std::string& check, const Walk& walk, con
     }
     std::optional<Allowance> allowed;
     if (loss) allowed = allowance<T>(loss->in(id), expected[id].size(), held_);
-    judge(row, difference(result.buffers[id], expected[id]), allowed);
+    give_verdict(row, difference(result.buffers[id], expected[id]), allowed);
     report_.rows.push_back(std::move(row));
   }
   ValidationRow others{.check = check, .state = walk.probe.name, .buffer = "all others"};
@@ -243,7 +244,8 @@ void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& wal
   for (const KernelRunner& with : runners_)
     if (results.empty() || planned.pass == &integrate)
       results.push_back(with.runner->run(step, host, walk.rows, row_index));
-  const MirrorContext context{model_, planned.constants, walk.rows[row_index], row_index, planned.item};
+  const MirrorContext context{model_,    planned.constants, walk.rows[row_index],
+                              row_index, planned.item,      kProbeSpeedAllowed_m_s};
   std::optional<FloatLoss> loss;
   if (!report_.exact_required) loss.emplace(planned, context, host);
   for (const BufferId id : results[0].outputs)
@@ -313,7 +315,7 @@ void Validator<T>::compare_states(const KernelRun& run, const std::string& name)
       allowed = allowance<T>(lost, reference.size(), held_);
       allowed->bias = allowed->max_abs;  // errors of many steps are no longer independent
     }
-    judge(row, difference(as_vec4<T>(got.*member), reference), allowed);
+    give_verdict(row, difference(as_vec4<T>(got.*member), reference), allowed);
     report_.rows.push_back(std::move(row));
   };
   compare(BufferId::position, &State::position);

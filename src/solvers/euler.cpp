@@ -24,6 +24,7 @@ const Solver euler{
     .steps = kSteps,
     .step_max_s = leapfrog_step_max,  // there is no stable step: leapfrog's, so that the two compare
     .schedule = whole_kick_schedule,
+    .instability = "gains energy in every oscillation, however short the step",
     .force_evaluations_per_substep = 1,
 };
 

@@ -34,6 +34,8 @@ struct Solver {
   /// The rows of a frame that starts at `start_s` and lasts `frame_s`: rows_per_substep for each of n
   /// substeps, then the closing row where there is one.
   std::vector<KickDrift> (*schedule)(double start_s, double frame_s, std::uint32_t substeps);
+  /// Where no step is stable: what happens, "gains energy …"; empty for all others.
+  std::string_view instability = {};
   std::uint32_t force_evaluations_per_substep;  ///< and one closing evaluation a frame for kick–drift schemes
   std::uint32_t rows_per_substep = 1;
   std::uint32_t substeps_default =

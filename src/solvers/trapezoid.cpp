@@ -35,6 +35,7 @@ const Solver trapezoid{
         [](double start_s, double frame_s, std::uint32_t substeps) {
           return runge_kutta_schedule(kStages, start_s, frame_s, substeps);
         },
+    .instability = "makes every oscillation that is not damped grow, however short the step",
     .force_evaluations_per_substep = 2,
     .rows_per_substep = kStages.size(),
 };

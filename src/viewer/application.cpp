@@ -199,6 +199,7 @@ void Application::handle_panels(const PanelWishes& wishes) {
   attempt([&] {
     if (wishes.open) open(*wishes.open);
     if (wishes.reset) running_.reset();
+    if (wishes.restore) running_.restore();
     if (wishes.toggle_pause) running_.set_paused(!running_.paused());
     if (wishes.step) running_.step();
     if (wishes.measure_effects) costs_.start_trial(running_);

@@ -35,7 +35,7 @@ void pace_lines(const RunningScene& running) {
   const Pacer& pacer = running.pacer();
   const RunFigures& figures = running.figures();
   if (running.diverged()) {
-    line(kBad, "diverged: raise the substeps, then R");
+    line(kBad, "diverged: stopped at the last good state");
   } else if (running.paused()) {
     line(kWarning, fmt::format("paused at {:.2f} s", running.simulation().time_s()));
   } else {

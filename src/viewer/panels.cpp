@@ -276,6 +276,7 @@ PanelWishes Panels::draw(const RunningScene& running, const Scene& pending, cons
   if (view.overlay) overlay_height_ = draw_overlay(running, facts, view);
   if (view.timings) draw_pass_timings(running, view);
   if (view.help) draw_help(view);
+  draw_divergence(running, view, wishes);
   draw_message(view);
   return wishes;
 }

@@ -18,7 +18,7 @@ struct PanelWishes {
   std::optional<Scene> scene;  ///< the same scene with other values
   std::optional<std::string> open, material;
   bool edit_ended = false;  ///< the mouse let go of a slider
-  bool reset = false, toggle_pause = false, step = false;
+  bool reset = false, restore = false, toggle_pause = false, step = false;
   std::optional<double> speed;
   std::optional<double> scale;  ///< of the drawn picture; 0: automatic
   std::optional<std::string> present_mode;
@@ -73,6 +73,8 @@ void draw_help(ViewState&);
 void draw_message(ViewState&);
 /// Marks where hands and pins made by hand hold the cloth.
 void draw_marks(const RunningScene&, const ViewState&);
+/// Says that and why the scene has diverged, and offers the last good state; nothing while it is sound.
+void draw_divergence(const RunningScene&, const ViewState&, PanelWishes&);
 /// Asks whether to quit. Returns true when the answer is yes.
 bool draw_quit_question(ViewState&);
 

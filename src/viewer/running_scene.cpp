@@ -147,7 +147,8 @@ void RunningScene::set_kernel(const std::string& name) {
 }
 
 void RunningScene::begin_again() {
-  diverged_ = mid_frame_ = false;
+  mid_frame_ = false;
+  divergence_text_.clear();
   under_watch_.reset();
   pieces_left_ = 0;
   figures_.measured_at_s = -1.0;
@@ -225,6 +226,8 @@ bool RunningScene::continue_frame() {
   mid_frame_ = simulation_->continue_frame();
   simulation_->wait();
   frame_wall_ms_ += Milliseconds(Clock::now() - start).count();
+  if (!mid_frame_) stop_if_diverged();
+  if (diverged()) return false;
   if (mid_frame_ || --pieces_left_ > 0) return true;
   watch_end();
   figures_.frame_ms =
@@ -258,8 +261,25 @@ void RunningScene::stop_watching() {
   watched_.reset();
 }
 
+void RunningScene::stop_if_diverged() {
+  const std::optional<Divergence> found = simulation_->divergence();
+  if (!found) return;
+  divergence_text_ = fmt::format("{}; likely cause: {}", what_happened(*found, model()),
+                                 likely_cause(*found, model(), simulation_->plan()));
+  simulation_->write(simulation_->last_good().value_or(start_state(model())));
+  release();
+  pieces_left_ = 0;
+  steps_due_ = 0;
+}
+
+void RunningScene::restore() {
+  if (!diverged()) return;
+  divergence_text_.clear();
+  set_paused(true);
+}
+
 void RunningScene::advance(double wall_s, double budget_s) {
-  if (diverged_ || (paused_ && steps_due_ == 0)) return;
+  if (diverged() || (paused_ && steps_due_ == 0)) return;
   if (!paused_) pacer_.elapse(wall_s);
   const Clock::time_point start = Clock::now();
   const auto due = [&] {
@@ -267,6 +287,7 @@ void RunningScene::advance(double wall_s, double budget_s) {
   };
   while (due()) {
     if (!continue_frame()) {
+      if (diverged()) break;
       if (paused_) --steps_due_;
       if (!paused_) pacer_.frame_done();
     }
@@ -289,13 +310,8 @@ void RunningScene::measure() {
 void RunningScene::measure_now() {
   const Clock::time_point start = Clock::now();
   const State state = simulation_->read();
-  std::uint32_t bad = 0;
-  if (!all_finite(state, &bad)) {
-    diverged_ = true;
-  } else {
-    figures_.max_stretch = stretch(simulation_->model(), state).maximum;
-    figures_.measured_at_s = state.time_s;
-  }
+  figures_.max_stretch = stretch(simulation_->model(), state).maximum;
+  figures_.measured_at_s = state.time_s;
   // At most a twentieth of the time goes into looking.
   const Clock::time_point end = Clock::now();
   next_measure_ = end + std::max<Clock::duration>(std::chrono::milliseconds(500), 20 * (end - start));

@@ -49,6 +49,8 @@ class RunningScene {
   void reload(bool new_shaders);
   /// Back to the start of the scene as it is now set.
   void reset();
+  /// Lets a scene that has diverged go on from its last good state, paused.
+  void restore();
   /// Changes the scene while it runs; the state is carried over.
   void apply(const Scene& next);
   /// Goes on with another kernel of the pass `integrate`; the state is carried over. One that does not fit a
@@ -66,7 +68,7 @@ class RunningScene {
   void step() { ++steps_due_; }
   void set_paused(bool paused);
   bool paused() const { return paused_; }
-  /// Takes a new reading of the stretch if the last one is old enough; stops the scene when it diverged.
+  /// Takes a new reading of the stretch if the last one is old enough.
   void measure();
   void measure_now();
 
@@ -100,7 +102,10 @@ class RunningScene {
   const RunFigures& figures() const { return figures_; }
   const std::string& which() const { return which_; }
   std::uint64_t version() const { return version_; }  ///< changes when the simulation object does
-  bool diverged() const { return diverged_; }
+  /// Whether the device found the state unsound. The scene then stands at its last good state.
+  bool diverged() const { return !divergence_text_.empty(); }
+  /// What happened and the likely cause; empty while the scene is sound.
+  const std::string& divergence_text() const { return divergence_text_; }
   bool mid_frame() const { return mid_frame_; }
 
  private:
@@ -115,6 +120,8 @@ class RunningScene {
   bool continue_frame();
   void watch_start();
   void watch_end();
+  /// Goes back to the last good state and stops there when the device found the present one unsound.
+  void stop_if_diverged();
 
   gpu::Device& device_;
   SceneOverrides overrides_;
@@ -129,7 +136,8 @@ class RunningScene {
   Pacer pacer_;
   Hand hand_;
   RunFigures figures_;
-  bool paused_ = false, mid_frame_ = false, diverged_ = false;
+  bool paused_ = false, mid_frame_ = false;
+  std::string divergence_text_;
   std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
   double frame_wall_ms_ = 0.0;
   std::uint64_t version_ = 0, shown_version_ = 0;

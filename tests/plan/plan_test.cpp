@@ -56,15 +56,18 @@ TEST(Plan, equals_its_golden_copy_for_each_scene) {
   }
 }
 
-TEST(Plan, is_substeps_then_the_closing_kick_then_normals) {
+TEST(Plan, is_substeps_then_the_closing_kick_then_normals_and_the_watch) {
   const Plan plan = plan_of("[cloth]\nresolution = 16\n[gravity]\n[solver]\nsubsteps = 50");
-  ASSERT_EQ(plan.steps.size(), 3u);
+  ASSERT_EQ(plan.steps.size(), 6u);
   EXPECT_EQ(plan.steps[0].pass, &integrate);
   EXPECT_EQ(plan.steps[0].repeat, 50u);
   EXPECT_EQ(plan.steps[1].pass, &integrate);
   EXPECT_EQ(plan.steps[1].block, Block::frame_end);
   EXPECT_EQ(plan.steps[2].pass, &normals);
-  EXPECT_EQ(plan.dispatches(), 52u);
+  EXPECT_EQ(plan.steps[3].pass, &watch);
+  EXPECT_EQ(plan.steps[4].pass, &judge);
+  EXPECT_EQ(plan.steps[5].pass, &keep_sound);
+  EXPECT_EQ(plan.dispatches(), 55u);
 }
 
 /// Each row: what to add to a bare scene, and which constant and effect that is.
@@ -117,12 +120,16 @@ TEST(Plan, counts_no_byte_for_an_absent_effect) {
 TEST(Plan, sums_its_buffers) {
   const Plan plan = plan_of("[cloth]\nresolution = 10\nheight = 2.0\n[solver]\nsubsteps = 63\n");
   const std::uint64_t particles = 10 * 19;  // height 2 of width 1: 2·9 cells
-  for (const BufferId id : {BufferId::position, BufferId::position_next, BufferId::velocity,
-                            BufferId::velocity_next, BufferId::normal})
+  for (const BufferId id :
+       {BufferId::position, BufferId::position_next, BufferId::velocity, BufferId::velocity_next,
+        BufferId::normal, BufferId::kept_position, BufferId::kept_velocity})
     EXPECT_EQ(bytes_of(plan, id), 16 * particles);
   EXPECT_EQ(bytes_of(plan, BufferId::substeps), 2u * 64 * 2 * 16);
   EXPECT_EQ(bytes_of(plan, BufferId::params), 2 * sizeof(shared::Params));
-  EXPECT_EQ(plan.bytes(), 5 * 16 * particles + 2 * 64 * 2 * 16 + 2 * sizeof(shared::Params));
+  // 19 rows are two pieces a column of at most 16, three words each; five words of verdict.
+  EXPECT_EQ(bytes_of(plan, BufferId::watch_parts), 3u * 4 * 10 * 2);
+  EXPECT_EQ(bytes_of(plan, BufferId::watch_state), 5u * 4);
+  EXPECT_EQ(plan.bytes(), 7 * 16 * particles + 2 * 64 * 2 * 16 + 2 * sizeof(shared::Params) + 240 + 20);
 }
 
 TEST(Plan, has_room_for_the_closing_kick_at_powers_of_two) {
@@ -145,7 +152,7 @@ TEST(Plan, has_a_solvers_own_buffers_only_with_that_solver) {
     const auto keeps = own.find(solver->name);
     std::set<BufferId> beyond;
     for (const PlanBuffer& buffer : plan.buffers)
-      if (buffer.id > BufferId::normal) beyond.insert(buffer.id);
+      if (buffer.id > BufferId::normal && buffer.id < BufferId::draw_position) beyond.insert(buffer.id);
     EXPECT_EQ(beyond, keeps == own.end() ? std::set<BufferId>{} : keeps->second) << solver->name;
     if (!has_compensated(*solver)) continue;
     const Plan compensated = compile_plan(model, *solver, "f32k");
@@ -184,7 +191,10 @@ TEST(Plan, has_what_is_drawn_in_float_only_in_double) {
     EXPECT_EQ(in_double.dispatches(), in_float.dispatches() + 1) << solver->name;
     const std::uint64_t params = bytes_of(in_float, BufferId::params),
                         params_in_double = 2 * sizeof(shared::ParamsOf<double>);
-    EXPECT_EQ(in_double.bytes(), 2 * (in_float.bytes() - params) + params_in_double + 2 * 16 * particles)
+    const std::uint64_t words =
+        bytes_of(in_float, BufferId::watch_parts) + bytes_of(in_float, BufferId::watch_state);
+    EXPECT_EQ(in_double.bytes(),
+              2 * (in_float.bytes() - params - words) + words + params_in_double + 2 * 16 * particles)
         << solver->name;
   }
   EXPECT_EQ(presents(compile_plan(model, find_solver("leapfrog"), "f32k")), 0);
@@ -202,10 +212,10 @@ TEST(Plan, of_xpbd_has_a_step_for_each_colour_there_is) {
     EXPECT_EQ(springs, model.spring_count);  // each once, whatever its colour
     return plan.steps.size();
   };
-  EXPECT_EQ(steps_of("bend = 1e-5\n"), 2u + 12 + 6 + 1);
-  EXPECT_EQ(steps_of("bend = 0.0\n"), 2u + 12 + 1);
-  EXPECT_EQ(steps_of("shear = 0.0\n"), 2u + 8 + 1);
-  EXPECT_EQ(steps_of("shear = 0.0\nflex = 0.0\n"), 2u + 4 + 1);
+  EXPECT_EQ(steps_of("bend = 1e-5\n"), 2u + 12 + 6 + 4);
+  EXPECT_EQ(steps_of("bend = 0.0\n"), 2u + 12 + 4);
+  EXPECT_EQ(steps_of("shear = 0.0\n"), 2u + 8 + 4);
+  EXPECT_EQ(steps_of("shear = 0.0\nflex = 0.0\n"), 2u + 4 + 4);
 }
 
 // A Runge-Kutta stage is a row of the table: 4 x 50 and a closing one need 256.
@@ -213,7 +223,7 @@ TEST(Plan, has_a_row_of_the_table_for_each_stage) {
   const Model model = model_of("[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n");
   EXPECT_EQ(bytes_of(compile_plan(model, find_solver("rk4")), BufferId::substeps), 2u * 256 * 2 * 16);
   EXPECT_EQ(bytes_of(compile_plan(model, find_solver("trapezoid")), BufferId::substeps), 2u * 128 * 2 * 16);
-  EXPECT_EQ(compile_plan(model, find_solver("rk4")).dispatches(), 4u * 50 + 1);
+  EXPECT_EQ(compile_plan(model, find_solver("rk4")).dispatches(), 4u * 50 + 4);
 }
 
 const char* const kSelfCollision =
@@ -227,7 +237,8 @@ TEST(Plan, has_self_collision_s_passes_and_bytes_only_where_the_scene_asks) {
                                         &cell_sort,  &pair_gather, &touch_count, &self_contact};
   for (const PlanStep& step : without.steps)
     EXPECT_EQ(std::ranges::count(own, step.pass), 0) << step.pass->name;
-  for (const PlanBuffer& buffer : without.buffers) EXPECT_LE(buffer.id, BufferId::normal);
+  for (const PlanBuffer& buffer : without.buffers)
+    EXPECT_TRUE(buffer.id <= BufferId::normal || buffer.id >= BufferId::watch_parts);
   EXPECT_EQ(reason_for(without, "self-collision"), "the scene has no [self_collision]");
   EXPECT_EQ(reason_for(with, "self-collision"), "");
 

@@ -95,7 +95,7 @@ TEST_F(GpuSimulationTest, gives_bits_that_do_not_depend_on_the_submits) {
     const auto simulation = on_gpu(model, {.dispatches_per_submit = dispatches});
     expect_same(ran(*simulation), whole, fmt::format("{} dispatches a submit", dispatches));
     EXPECT_EQ(simulation->submit_count(),
-              (9 + dispatches - 1) / dispatches);  // 7 substeps, closing kick, normals
+              (12 + dispatches - 1) / dispatches);  // 7 substeps, closing kick, normals, three that watch
   }
 }
 
@@ -128,7 +128,7 @@ TEST_F(GpuSimulationTest, has_a_pipeline_for_each_pass_and_not_for_each_step) {
   const GpuProgram program(device(), plan, buffers);
   for (std::size_t step = 0; step < plan.steps.size(); ++step)
     EXPECT_EQ(program.flips(step), plan.steps[step].pass->swaps_state);
-  EXPECT_EQ(program.pipeline_count(), 2u);  // the closing kick shares the substep's pipeline
+  EXPECT_EQ(program.pipeline_count(), 5u);  // the closing kick shares the substep's pipeline
 }
 
 TEST_F(GpuSimulationTest, leaves_the_clock_where_the_frames_say_and_takes_short_ones) {
@@ -140,7 +140,7 @@ TEST_F(GpuSimulationTest, leaves_the_clock_where_the_frames_say_and_takes_short_
   const auto cpu = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
   run_for(*cpu, 0.04, [](auto, auto, const FrameStats&) { return true; });
   if (device().info().software) expect_same(simulation->read(), cpu->read(), "0.04 s");
-  EXPECT_EQ(simulation->advance(1e-4, 1).dispatches, 3u);
+  EXPECT_EQ(simulation->advance(1e-4, 1).dispatches, 6u);
   EXPECT_THROW(simulation->advance(1.0, 2 * substep_row_capacity(n)), Error);
 }
 

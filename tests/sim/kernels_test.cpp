@@ -139,7 +139,7 @@ TEST_F(KernelsTest, record_and_allocate_what_they_say) {
     EXPECT_EQ(stats.spring_evaluations, 58 * model.spring_count) << kernel;
     EXPECT_EQ(simulation->kernel().how, "forced");
     if (kernel == std::string("bands")) {
-      EXPECT_EQ(stats.dispatches, 15u + 2u);  // ceil(57 / 4), closing kick, normals
+      EXPECT_EQ(stats.dispatches, 15u + 5u);  // ceil(57 / 4), closing kick, normals, three that watch
       EXPECT_GT(simulation->bytes_expected(), plan.bytes());
     } else if (kernel == std::string("steal")) {
       EXPECT_EQ(stats.dispatches, plan.dispatches());

@@ -36,7 +36,8 @@ TEST_F(ValidateTest, passes_every_scene_and_covers_every_step) {
                           << ": " << row.verdict << ", max " << row.max_abs << ", " << row.max_ulp << " ulp";
     }
     EXPECT_TRUE(report.ok());
-    std::set<std::string> expected{"normals (frame end)", "integrate, kernel bands, 4 substeps"};
+    std::set<std::string> expected{"normals (frame end)", "watch (frame end)", "judge (frame end)",
+                                   "keep_sound (frame end)", "integrate, kernel bands, 4 substeps"};
     for (const char* kernel : {"", ", kernel texel", ", kernel strip", ", kernel steal", ", kernel bands"})
       for (const char* check : {"integrate", "integrate (frame end)", "lockstep"})
         expected.insert(std::string(check) + kernel);

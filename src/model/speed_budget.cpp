@@ -1,0 +1,101 @@
+// The bound on the mean square speed, fed by what moves and pulls.
+#include "model/speed_budget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "model/measures.h"
+#include "model/motion.h"
+#include "model/springs.h"
+#include "shared/watch.h"
+
+namespace weft {
+namespace {
+
+/// Rounding, an imperfect start, a step's share of a contact: a cloth at rest in empty space may move so
+/// fast.
+constexpr double kAlways_m_s = 1.0;
+
+/// How fast √(2E/M) can grow when a particle is moved at 1 m/s against all others [1/s]: two ends of each
+/// spring, and four particles' worth of each bending triple.
+double reaction_1_s(const Model& model) {
+  const double mass_kg = free_mass_ratio(model) * model.interior_mass_kg;
+  if (mass_kg == 0.0) return 0.0;
+  double stiffness_n_m = 0.0;
+  for_each_spring(model, [&](const SpringKind& kind, std::uint32_t, std::uint32_t, double weight) {
+    stiffness_n_m += 4.0 * weight * kind.stiffness_n_m;
+  });
+  for_each_triple(model, [&](std::uint32_t, std::uint32_t, std::uint32_t, double kappa) {
+    stiffness_n_m += 16.0 * kappa;
+  });
+  return std::sqrt(stiffness_n_m / mass_kg);
+}
+
+/// Speed [m/s] of the fastest sphere or pin.
+double mover_speed_m_s(const Scene& scene) {
+  double fastest = 0.0;
+  for (const SphereSection& sphere : scene.spheres)
+    fastest =
+        std::max(fastest, sphere.keys.empty() ? glm::length(sphere.velocity_m_s) : fastest_m_s(sphere.keys));
+  for (const PinSection& pin : scene.pins) fastest = std::max(fastest, fastest_m_s(pin.keys));
+  return fastest;
+}
+
+/// By how much all of a stored energy can be more in the next model: its springs' stiffness, their largest
+/// ratio, and what less mass makes of the same energy.
+double energy_ratio(const Model& before, const Model& next) {
+  double ratio = 1.0;
+  for (std::size_t kind = 0; kind < kSpringKindCount; ++kind)
+    if (before.springs[kind].stiffness_n_m > 0.0)
+      ratio = std::max(ratio, next.springs[kind].stiffness_n_m / before.springs[kind].stiffness_n_m);
+  if (before.bend_kappa_n_m > 0.0) ratio = std::max(ratio, next.bend_kappa_n_m / before.bend_kappa_n_m);
+  return ratio * std::max(1.0, before.interior_mass_kg / next.interior_mass_kg);
+}
+
+}  // namespace
+
+double free_mass_ratio(const Model& model) {
+  double sum = 0.0;
+  for (const double inverse : model.relative_inverse_mass)
+    if (inverse != 0.0) sum += 1.0 / inverse;
+  return sum;
+}
+
+SpeedBudget::SpeedBudget(const Model& model, const State& start, bool in_double)
+    : given_m_s_(kAlways_m_s), reaction_1_s_(reaction_1_s(model)), rounding_(in_double ? 0x1p-53 : 0x1p-24) {
+  for (const glm::dvec3& x : start.position) farthest_m_ = std::max(farthest_m_, glm::length(x));
+  const double mass_kg = free_mass_ratio(model) * model.interior_mass_kg;
+  if (mass_kg == 0.0) return;
+  const Energy begins = energy(model, start);
+  given_m_s_ += std::sqrt(2.0 * (begins.kinetic_j + begins.elastic_j + begins.bending_j) / mass_kg);
+  // Contact moves what begins inside a collider, or inside the cloth itself, out of it at once.
+  const double inside_m = deepest_penetration(model, start) + 2.0 * model.half_thickness_m;
+  if (inside_m > 0.0) given_m_s_ += reaction_1_s_ * inside_m;
+}
+
+void SpeedBudget::elapse(const Scene& scene, double duration_s, std::uint32_t substeps, double hand_m_s) {
+  const double mover_m_s = std::max(hand_m_s, mover_speed_m_s(scene));
+  farthest_m_ += std::max(given_m_s_, mover_m_s) * duration_s;
+  const double moved_m = mover_m_s * duration_s + rounding_ * farthest_m_ * substeps;
+  given_m_s_ += 2.0 * std::max(0.0, mover_m_s - mover_m_s_) + reaction_1_s_ * moved_m;
+  mover_m_s_ = std::max(mover_m_s_, mover_m_s);
+  if (scene.gravity) given_m_s_ += glm::length(scene.gravity->acceleration_m_s2) * duration_s;
+  if (!scene.air || !scene.wind) return;
+  const double wind_m_s = glm::length(scene.wind->velocity_m_s) * (1.0 + std::abs(scene.wind->gust));
+  given_m_s_ += scene.air->drag_kg_m2_s / scene.material.density_kg_m2 * wind_m_s * duration_s;
+}
+
+void SpeedBudget::adopt(const Model& before, const Model& next) {
+  given_m_s_ *= std::sqrt(energy_ratio(before, next));
+  reaction_1_s_ = reaction_1_s(next);
+}
+
+double SpeedBudget::allowed_m_s() const { return kMargin * given_m_s_; }
+
+double energy_share_s2_m2(double free_mass_ratio, double allowed_m_s) {
+  const double whole = free_mass_ratio * allowed_m_s * allowed_m_s;
+  return whole > 0.0 ? static_cast<double>(shared::kWatchWhole) / whole : 0.0;
+}
+
+}  // namespace weft
