@@ -28,4 +28,5 @@ target_include_directories(weft_stb SYSTEM INTERFACE ${STB_INCLUDE})
 
 if(WEFT_TESTS)
   find_package(GTest REQUIRED)
+  find_package(rapidcheck REQUIRED)
 endif()

@@ -1,0 +1,205 @@
+// The starts, masses and hands of hard cases, and the measures of a run.
+#include "support/hard_cases.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "model/measures.h"
+#include "scene/reader.h"
+
+namespace weft::hard {
+namespace {
+
+glm::dvec3 random_vector(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double x = unit(random), y = unit(random), z = unit(random);
+  return {x, y, z};
+}
+
+double deepest_share(const Model& model, const State& state) {
+  double deepest = 0.0;
+  if (model.scene.floor)
+    for (const glm::dvec3& x : state.position)
+      deepest = std::max(deepest, (model.scene.floor->height_m - x.y) / model.grid.width_m());
+  for (const SphereSection& sphere : model.scene.spheres) {
+    const glm::dvec3 center = sphere_center_at(sphere, state.time_s);
+    for (std::size_t p = 0; p < state.position.size(); ++p)
+      if (model.relative_inverse_mass[p] != 0.0)
+        deepest = std::max(deepest, 1.0 - glm::distance(state.position[p], center) / sphere.radius_m);
+  }
+  return deepest;
+}
+
+/// Particles whose way from one frame's end to the next, seen from a sphere, leads through more than a tenth
+/// of it, and those that are below the floor. On the surface a chord of a quarter of the radius, which is
+/// more than any case moves in a frame of its own, is 0.8 % deep.
+std::uint32_t passed_through(const Model& model, const State& before, const State& after) {
+  std::uint32_t count = 0;
+  for (std::size_t p = 0; p < after.position.size(); ++p) {
+    if (model.relative_inverse_mass[p] == 0.0) continue;
+    bool through = model.scene.floor && after.position[p].y < model.scene.floor->height_m - 1e-3;
+    for (const SphereSection& sphere : model.scene.spheres) {
+      const glm::dvec3 a = before.position[p] - sphere_center_at(sphere, before.time_s);
+      const glm::dvec3 b = after.position[p] - sphere_center_at(sphere, after.time_s);
+      const glm::dvec3 way = b - a;
+      const double squared = glm::dot(way, way);
+      const double at = squared > 0.0 ? std::clamp(-glm::dot(a, way) / squared, 0.0, 1.0) : 0.0;
+      through = through || (squared < std::pow(0.25 * sphere.radius_m, 2) &&
+                            glm::length(a + at * way) < 0.9 * sphere.radius_m);
+    }
+    count += through ? 1 : 0;
+  }
+  return count;
+}
+
+/// Moves the pinned particles of a hanging cloth.
+void move_pins(const Model& model, const glm::dvec3& by_m, double apart, State& state) {
+  const double middle_m = model.scene.cloth.center_m.x;
+  for (std::size_t p = 0; p < state.position.size(); ++p) {
+    if (model.relative_inverse_mass[p] != 0.0) continue;
+    glm::dvec3& x = state.position[p];
+    x += by_m;
+    x.x = middle_m + (x.x - middle_m) * apart;
+  }
+}
+
+/// The scene's material at step k of a sweep: each of three parameters goes up and down over its decades, at
+/// a pace of its own.
+Scene swept(const Scene& scene, std::uint64_t k) {
+  const auto wave = [&](double period) {
+    return std::sin(2.0 * std::numbers::pi * static_cast<double>(k) / period);
+  };
+  Scene next = scene;
+  next.material.membrane_n_m = 1000.0 * std::pow(10.0, 1.5 * wave(97.0));
+  next.material.bend_n_m = 2e-5 * std::pow(10.0, 1.5 * wave(61.0));
+  next.material.damping_s = 1e-4 * std::pow(10.0, 2.0 * wave(37.0));
+  return next;
+}
+
+/// Follows a run: what is most over all frames' ends.
+class Watcher {
+ public:
+  Watcher(const Model& model, const State& start)
+      : model_(model), before_(start), start_j_(energy(model, start).total()) {
+    const Energy begins = energy(model, start);
+    const double gravity_m_s2 =
+        model.scene.gravity ? glm::length(model.scene.gravity->acceleration_m_s2) : 0.0;
+    double mass_kg = 0.0;
+    for (const double inverse : model.relative_inverse_mass)
+      if (inverse != 0.0) mass_kg += model.interior_mass_kg / inverse;
+    outcome.energy_scale_j = begins.kinetic_j + begins.elastic_j + begins.bending_j +
+                             mass_kg * gravity_m_s2 * std::hypot(model.grid.width_m(), model.grid.height_m());
+    momentum_ = linear_momentum(model, start);
+    mass_kg_ = mass_kg;
+  }
+  void see(const State& state) {
+    outcome.max_stretch = std::max(outcome.max_stretch, stretch(model_, state).maximum);
+    outcome.inside = std::max(outcome.inside, deepest_share(model_, state));
+    outcome.tunnelled += passed_through(model_, before_, state);
+    if (outcome.energy_scale_j > 0.0)
+      outcome.energy_gain =
+          std::max(outcome.energy_gain, (energy(model_, state).total() - start_j_) / outcome.energy_scale_j);
+    for (const glm::dvec3& v : state.velocity) fastest_m_s_ = std::max(fastest_m_s_, glm::length(v));
+    if (fastest_m_s_ > 0.0)
+      outcome.momentum_drift =
+          std::max(outcome.momentum_drift,
+                   glm::distance(linear_momentum(model_, state), momentum_) / (mass_kg_ * fastest_m_s_));
+    before_ = state;
+  }
+  Outcome outcome;
+
+ private:
+  const Model& model_;
+  State before_;
+  double start_j_, mass_kg_ = 0.0, fastest_m_s_ = 0.0;
+  glm::dvec3 momentum_{};
+};
+
+/// What the hand does before frame `k` of `count`; may put another simulation in place.
+void use_hand(const HardCase& c, const Solver& solver, const MakeSimulation& make, std::uint64_t k,
+              std::uint64_t count, std::unique_ptr<Simulation>& simulation) {
+  if (c.hand == Hand::none) return;
+  State state = simulation->read();
+  const Model& model = simulation->model();
+  if (c.hand == Hand::sweeps_parameters) {
+    auto next = make(build_model(swept(model.scene, k)), solver);
+    next->write(state);
+    simulation = std::move(next);
+    return;
+  }
+  if (c.hand == Hand::yanks_pins && k == 3) move_pins(model, {0.0, 0.0, 10.0}, 1.0, state);
+  if (c.hand == Hand::parts_pins) {
+    const double steps = 0.8 * static_cast<double>(count);
+    if (static_cast<double>(k) < steps) move_pins(model, glm::dvec3(0.0), std::pow(3.0, 1.0 / steps), state);
+  }
+  simulation->write(state);
+}
+
+}  // namespace
+
+Model hard_model(const HardCase& c, std::span<const std::string> more) {
+  SceneOverrides overrides;
+  overrides.set = c.set;
+  overrides.set.insert(overrides.set.end(), more.begin(), more.end());
+  const Model model =
+      build_model(load_scene(WEFT_SOURCE_DIR "/tests/hard_cases/" + c.scene + ".toml", overrides).scene);
+  if (c.masses == Masses::scene) return model;
+  std::vector<double> scale(model.grid.count(), 1.0);
+  const std::uint32_t middle = model.grid.index(model.grid.nx / 2, model.grid.ny / 2);
+  if (c.masses == Masses::one_heavy) scale[middle] = 1.0 / c.mass_ratio;
+  if (c.masses == Masses::one_light) scale[middle] = c.mass_ratio;
+  if (c.masses == Masses::checkered)
+    for (std::uint32_t p = 0; p < model.grid.count(); ++p)
+      if ((p % model.grid.nx + p / model.grid.nx) % 2 == 0) scale[p] = 1.0 / c.mass_ratio;
+  return with_mass_scale(model, scale);
+}
+
+State hard_start(const HardCase& c, const Model& model) {
+  State state = start_state(model);
+  const glm::dvec3 center = model.scene.cloth.center_m;
+  std::mt19937_64 random(20261122);
+  for (std::uint32_t p = 0; p < model.grid.count(); ++p) {
+    glm::dvec3& x = state.position[p];
+    const std::uint32_t i = p % model.grid.nx;
+    if (c.start == Start::point) x = center;
+    if (c.start == Start::line) x.x = center.x;
+    if (c.start == Start::box) x = center + 0.5 * model.grid.width_m() * random_vector(random);
+    if (c.start == Start::inside_out && (i ^ 1u) < model.grid.nx)
+      x.x += ((i & 1u) == 0 ? 1.0 : -1.0) * model.grid.spacing_m;
+    if (c.start == Start::falling_30) state.velocity[p] = {0.0, -30.0, 0.0};
+    if (c.start == Start::swinging) state.velocity[p] = 2.0 * random_vector(random);
+  }
+  return state;
+}
+
+Outcome run_hard_case(const HardCase& c, const Solver& solver, const MakeSimulation& make) {
+  const Model model = hard_model(c);
+  const State start = hard_start(c, model);
+  std::unique_ptr<Simulation> simulation = make(model, solver);
+  simulation->write(start);
+  Watcher watcher(model, simulation->read());
+  const double frame_s = model.scene.solver.frame_s;
+  const std::uint64_t count = frames_for(c.time_s, frame_s, 1).whole;
+  const auto began = std::chrono::steady_clock::now();
+  for (std::uint64_t k = 0; k < count; ++k) {
+    use_hand(c, solver, make, k, count, simulation);
+    watcher.outcome.substeps = std::max(watcher.outcome.substeps, simulation->plan().substeps);
+    simulation->advance(frame_s, simulation->plan().substeps);
+    const State state = simulation->read();
+    watcher.outcome.divergence = simulation->divergence();
+    if (watcher.outcome.divergence) break;
+    watcher.see(state);
+  }
+  Outcome outcome = std::move(watcher.outcome);
+  outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  if (outcome.divergence)
+    outcome.cause = likely_cause(*outcome.divergence, simulation->model(), simulation->plan());
+  outcome.end = simulation->last_good().value_or(start);
+  return outcome;
+}
+
+}  // namespace weft::hard
