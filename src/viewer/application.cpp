@@ -136,6 +136,7 @@ void Application::run() {
     handle_input(elapsed_s);
     const double budget_s = std::clamp(1e-3 * painter_.draw_ms(), kBudgetLeast_s, kBudgetMost_s);
     attempt([&] { running_.advance(elapsed_s, budget_s); });
+    if (!pending_) attempt([&] { running_.keep_pace(); });
     if (!running_.paused()) running_.measure();
     attempt([&] { costs_.follow(running_); });
     gui_.begin_frame();
@@ -205,6 +206,7 @@ void Application::handle_panels(const PanelWishes& wishes) {
     if (wishes.measure_effects) costs_.start_trial(running_);
     if (wishes.stop_measuring) costs_.cancel_trial();
     if (wishes.speed) running_.pacer().set_speed(*wishes.speed);
+    if (wishes.allow_xpbd) running_.stand_in().allow(*wishes.allow_xpbd);
     if (wishes.scale)
       painter_.set_scale(*wishes.scale > 0.0 ? *wishes.scale : painter_.scale(), *wishes.scale <= 0.0);
     if (wishes.kernel) running_.set_kernel(*wishes.kernel);

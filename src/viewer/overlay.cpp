@@ -41,10 +41,10 @@ void pace_lines(const RunningScene& running) {
   } else {
     line(
         fmt::format("{:.2f} s, {:.2f} x real time", running.simulation().time_s(), pacer.real_time_factor()));
+    if (running.stand_in().active()) line(kWarning, running.stand_in().text(figures.max_stretch));
     if (!pacer.slow_motion()) return;
     line(kWarning, figures.frame_ms > 0.0
-                       ? fmt::format("slow motion: {:.0f} ms for a frame of {:.1f} ms", figures.frame_ms,
-                                     1e3 * running.scene().solver.frame_s / pacer.speed())
+                       ? slow_motion_text(running.pace())
                        : std::string("slow motion: the first frame is still being computed"));
   }
 }

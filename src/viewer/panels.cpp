@@ -101,6 +101,18 @@ void kernel_choice(const RunningScene& running, const PanelFacts& facts, PanelWi
   tooltip("how the device computes a substep; all end in the same bits and differ in speed");
 }
 
+/// Whether XPBD may take over, and why it would not.
+void stand_in_switch(const RunningScene& running, PanelWishes& wishes) {
+  bool allowed = running.stand_in().allowed();
+  if (ImGui::Checkbox("xpbd when too slow", &allowed)) wishes.allow_xpbd = allowed;
+  const std::string why_not = running.stand_in().active() ? "" : why_no_stand_in(running.scene());
+  tooltip(
+      fmt::format("where the substeps do not fit into real time, take XPBD: fast, stable and too soft. Off: "
+                  "slow motion with the same physics{}{}",
+                  why_not.empty() ? "" : "; here it would not: ", why_not)
+          .c_str());
+}
+
 void scene_buttons(const RunningScene& running, const PanelFacts& facts, PanelWishes& wishes) {
   for (std::size_t k = 0; k < std::min<std::size_t>(facts.scenes.size(), 6); ++k) {
     if (k > 0) ImGui::SameLine();
@@ -251,6 +263,7 @@ void Panels::settings(const RunningScene& running, const Scene& pending, const P
   ImGui::Separator();
   quick_sliders(edited, changed, facts, wishes);
   changed |= substeps_slider(edited, running.simulation().plan().substeps);
+  stand_in_switch(running, wishes);
   kernel_choice(running, facts, wishes);
   if (ImGui::CollapsingHeader("All parameters")) all_parameters(edited, changed, facts, wishes);
   if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen))

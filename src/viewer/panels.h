@@ -20,7 +20,8 @@ struct PanelWishes {
   bool edit_ended = false;  ///< the mouse let go of a slider
   bool reset = false, restore = false, toggle_pause = false, step = false;
   std::optional<double> speed;
-  std::optional<double> scale;  ///< of the drawn picture; 0: automatic
+  std::optional<bool> allow_xpbd;  ///< in place of a solver that is too slow
+  std::optional<double> scale;     ///< of the drawn picture; 0: automatic
   std::optional<std::string> present_mode;
   std::optional<std::string> kernel;  ///< "auto" or one of PanelFacts::kernels
   bool measure_effects = false, stop_measuring = false;

@@ -53,6 +53,7 @@ void RunningScene::open(const std::string& which) {
   }
   which_ = which;
   warnings_ = loaded.warnings;
+  stand_in_.forget();
 }
 
 void RunningScene::reload(bool new_shaders) {
@@ -67,6 +68,7 @@ void RunningScene::reload(bool new_shaders) {
     throw;
   }
   warnings_ = loaded.warnings;
+  stand_in_.forget();
 }
 
 void RunningScene::reset() {
@@ -87,6 +89,30 @@ void RunningScene::apply(const Scene& next) {
   adopt(next, true);
 }
 
+Pace RunningScene::pace() const {
+  return {pacer_.speed(), pacer_.real_time_factor(), pacer_.slow_motion(), simulation_->plan().substeps};
+}
+
+void RunningScene::keep_pace() {
+  if (paused_ || diverged_ || hand_.holds()) return;
+  if (stand_in_.active() && own_needed_of_ != shown_version_) {  // the bound takes a while: once a change
+    Scene own = scene_;
+    own.solver = stand_in_.own_solver();
+    own_needed_ = substeps_per_frame(build_model(composed(own)), find_solver(own.solver.name));
+    own_needed_of_ = shown_version_;
+  }
+  const std::optional<Scene> next = stand_in_.look(scene_, pace(), model().grid.count(), own_needed_);
+  if (!next) return;
+  try {
+    apply(*next);
+  } catch (...) {
+    stand_in_.forget();
+    stand_in_.allow(false);
+    throw;
+  }
+  pacer_.restart();  // the next reading is of the other solver
+}
+
 Scene RunningScene::composed(const Scene& scene) const {
   Scene whole = scene;
   const double cell_m = scene.cloth.width_m / std::max(1.0, scene.cloth.resolution - 1.0);
@@ -99,7 +125,8 @@ Scene RunningScene::composed(const Scene& scene) const {
 void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   const Clock::time_point start = Clock::now();
   const Model model = build_model(composed(next));
-  const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth);
+  const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth) &&
+                    simulation_->plan().solver->name == next.solver.name;
   figures_.kept_plan = same && !anew && simulation_->adopt(model);
   if (!figures_.kept_plan) {
     std::optional<State> state;

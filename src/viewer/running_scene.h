@@ -12,6 +12,7 @@
 #include "sim/gpu_simulation.h"
 #include "viewer/hand.h"
 #include "viewer/pacing.h"
+#include "viewer/substep_budget.h"
 
 namespace weft {
 
@@ -64,6 +65,13 @@ class RunningScene {
 
   /// Lets wall time pass: computes the frames that are due, in chunks, for about `budget_s` at most.
   void advance(double wall_s, double budget_s);
+  /// What is reached of the wanted pace, and the substeps that it takes.
+  Pace pace() const;
+  /// Lets XPBD take over from a solver that is too slow, or give back, as the user allowed (stand_in()).
+  /// @throws Error as apply does; nothing is taken over then
+  void keep_pace();
+  XpbdStandIn& stand_in() { return stand_in_; }
+  const XpbdStandIn& stand_in() const { return stand_in_; }
   /// Asks for one more frame while paused.
   void step() { ++steps_due_; }
   void set_paused(bool paused);
@@ -134,6 +142,9 @@ class RunningScene {
   std::shared_ptr<GpuPipelines> pipelines_;
   std::unique_ptr<GpuSimulation> simulation_;
   Pacer pacer_;
+  XpbdStandIn stand_in_;
+  std::optional<std::uint64_t> own_needed_of_;  ///< the shown_version that own_needed_ belongs to
+  std::uint32_t own_needed_ = 0;                ///< substeps of the solver that XPBD stands in for
   Hand hand_;
   RunFigures figures_;
   bool paused_ = false, mid_frame_ = false;

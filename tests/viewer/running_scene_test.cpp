@@ -97,6 +97,79 @@ TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
   EXPECT_EQ(state_hash(running.simulation().read()), state_hash(fresh->read()));
 }
 
+// Promise of the step bound: whatever a slider, a pin or a resolution changes, the substeps are those of the
+// scene as it is now, never of the one before.
+TEST_F(RunningSceneTest, EveryChangeRefreshesTheStepBound) {
+  RunningScene running = open("2", 24);
+  const auto expect_own = [&](const std::string& what) {
+    const Model fresh = build_model(running.model().scene);
+    const Solver& solver = *running.simulation().plan().solver;
+    EXPECT_EQ(solver.name, running.scene().solver.name) << what;
+    EXPECT_EQ(running.simulation().plan().substeps, substeps_per_frame(fresh, solver)) << what;
+    EXPECT_EQ(running.model().bound.lambda_1_s2, fresh.bound.lambda_1_s2) << what;
+    EXPECT_EQ(running.model().bound.gamma_1_s, fresh.bound.gamma_1_s) << what;
+  };
+  expect_own("as opened");
+  const auto change = [&](const std::string& what, auto&& edit) {
+    const double before = running.model().bound.lambda_1_s2 + running.model().bound.gamma_1_s;
+    Scene next = running.scene();
+    edit(next);
+    running.apply(next);
+    EXPECT_NE(running.model().bound.lambda_1_s2 + running.model().bound.gamma_1_s, before) << what;
+    expect_own(what);
+  };
+  change("stiffer", [](Scene& s) { s.material.membrane_n_m *= 40.0; });
+  change("lighter", [](Scene& s) { s.material.density_kg_m2 *= 0.05; });
+  change("resists shear", [](Scene& s) { s.material.shear_n_m = 9e4; });
+  change("resists bending", [](Scene& s) { s.material.bend_n_m = 1e-2; });
+  change("damped", [](Scene& s) { s.material.damping_s = 3e-3, s.material.damping_ratio_max = 2.0; });
+  change("finer", [](Scene& s) { s.cloth.resolution = 40; });
+  Scene longer = running.scene();
+  longer.solver.frame_s = 1.0 / 30.0;
+  running.apply(longer);
+  expect_own("twice the frame");
+  Scene other = running.scene();
+  other.solver.name = "rk4";
+  running.apply(other);
+  expect_own("another solver");
+}
+
+// All but one particle held: its bound is its own, and comes back when it is let go.
+TEST_F(RunningSceneTest, PinningRefreshesTheStepBound) {
+  RunningScene running = open("4", 8);
+  const StepBound free_bound = running.model().bound;
+  Scene held = running.scene();
+  held.pins = {{{0.0, 0.0}, 1.38, {}}};  // of a diagonal of 1.414 m: all but the far corner
+  running.apply(held);
+  EXPECT_LT(running.model().bound.lambda_1_s2, free_bound.lambda_1_s2);
+  EXPECT_EQ(running.simulation().plan().substeps,
+            substeps_per_frame(build_model(held), find_solver("leapfrog")));
+  held.pins.clear();
+  running.apply(held);
+  EXPECT_EQ(running.model().bound.lambda_1_s2, free_bound.lambda_1_s2);
+}
+
+// Too slow by far, and allowed: XPBD runs, says in whose place, and the scene's own solver comes back.
+TEST_F(RunningSceneTest, XpbdStandsInWhereItIsAllowedAndSaysSo) {
+  RunningScene running = open("1", 16);
+  running.stand_in().allow(true);
+  const auto slowly = [&](int pictures) {  // one frame in each picture of half a second
+    for (int k = 0; k < pictures; ++k) {
+      running.advance(0.5, 1e-9);
+      running.keep_pace();
+    }
+  };
+  slowly(6);
+  ASSERT_TRUE(running.stand_in().active());
+  EXPECT_EQ(running.simulation().plan().solver->name, "xpbd");
+  EXPECT_NE(running.stand_in().text(0.0).find("xpbd in place of leapfrog"), std::string::npos);
+  running.stand_in().allow(false);
+  running.keep_pace();
+  EXPECT_EQ(running.simulation().plan().solver->name, "leapfrog");
+  EXPECT_FALSE(running.stand_in().active());
+  EXPECT_EQ(running.scene().solver.substeps, 0u) << "automatic, as it was";
+}
+
 TEST_F(RunningSceneTest, AnEffectLessIsAnotherPlanWithTheSameState) {
   RunningScene running = open("1");
   frames(running, 3);
