@@ -74,9 +74,9 @@ Machine start(const Options& o, const Setup& setup, double run_s) {
     return machine;
   }
   machine.device = open_device(o);
-  const Plan plan = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
-  const double substeps = run_s / setup.scene().solver.frame_s * plan.substeps;
-  const bool long_run = expected_work_s(*machine.device, plan, substeps) >= kWorthTrying_s;
+  const Plan planned = compile_plan(setup.model, *setup.solver, setup.scene().solver.precision);
+  const double substeps = run_s / setup.scene().solver.frame_s * planned.substeps;
+  const bool long_run = expected_work_s(*machine.device, planned, substeps) >= kWorthTrying_s;
   auto on_gpu = GpuSimulation::create(
       *machine.device, setup.model, *setup.solver,
       {.kernel = o.kernel, .trial = long_run ? KernelTrial::allowed : KernelTrial::when_named});
