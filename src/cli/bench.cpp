@@ -87,10 +87,10 @@ Exit run_bench(const Options& o) {
 
 }  // namespace
 
-const Command bench{"bench", "times the passes at 64 to 1024 particles a side (or at --resolution)",
-                    "  weft bench\n"
-                    "  weft bench 1 4 --resolution 256\n"
-                    "  weft bench 1 --format json > bench.json",
-                    add_scenes, run_bench};
+const Command bench_command{"bench", "times the passes at 64 to 1024 particles a side (or at --resolution)",
+                            "  weft bench\n"
+                            "  weft bench 1 4 --resolution 256\n"
+                            "  weft bench 1 --format json > bench.json",
+                            add_scenes, run_bench};
 
 }  // namespace weft::cli

@@ -19,17 +19,17 @@ struct Command {
   Exit (*run)(const Options&);
 };
 
-extern const Command bench;
-extern const Command devices;
-extern const Command materials;
-extern const Command plan;
-extern const Command render;
-extern const Command scenes;
-extern const Command simulate;
-extern const Command solvers;
-extern const Command study;
-extern const Command validate;
-extern const Command view;
+extern const Command bench_command;
+extern const Command devices_command;
+extern const Command materials_command;
+extern const Command plan_command;
+extern const Command render_command;
+extern const Command scenes_command;
+extern const Command simulate_command;
+extern const Command solvers_command;
+extern const Command study_command;
+extern const Command validate_command;
+extern const Command view_command;
 
 /// All of them, in the order that `weft --help` lists them.
 std::span<const Command* const> commands();

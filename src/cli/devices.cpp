@@ -45,8 +45,8 @@ Exit run_devices(const Options& o) {
 
 }  // namespace
 
-const Command devices{"devices", "lists the devices, best first",
-                      "  weft devices\n  weft simulate 1 --device 0 --time 0.5", [](CLI::App&, Options&) {},
-                      run_devices};
+const Command devices_command{"devices", "lists the devices, best first",
+                              "  weft devices\n  weft simulate 1 --device 0 --time 0.5",
+                              [](CLI::App&, Options&) {}, run_devices};
 
 }  // namespace weft::cli

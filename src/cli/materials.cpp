@@ -26,8 +26,8 @@ Exit run_materials(const Options& o) {
 
 }  // namespace
 
-const Command materials{"materials", "lists the materials and their constants",
-                        "  weft materials\n  weft simulate 1 --material denim --time 1",
-                        [](CLI::App&, Options&) {}, run_materials};
+const Command materials_command{"materials", "lists the materials and their constants",
+                                "  weft materials\n  weft simulate 1 --material denim --time 1",
+                                [](CLI::App&, Options&) {}, run_materials};
 
 }  // namespace weft::cli

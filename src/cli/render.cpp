@@ -154,10 +154,10 @@ void add_render_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-const Command render{"render", "draws a scene into a picture or a film",
-                     "  weft render 1 --time 2 --out hung.png\n"
-                     "  weft render 5 --out drop.mp4 --size 960x540 --fps 30\n"
-                     "  weft render 4 --time 1 --out frames/frame-%04d.png --wireframe",
-                     add_render_options, run_render};
+const Command render_command{"render", "draws a scene into a picture or a film",
+                             "  weft render 1 --time 2 --out hung.png\n"
+                             "  weft render 5 --out drop.mp4 --size 960x540 --fps 30\n"
+                             "  weft render 4 --time 1 --out frames/frame-%04d.png --wireframe",
+                             add_render_options, run_render};
 
 }  // namespace weft::cli

@@ -159,11 +159,11 @@ void add_simulate_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-const Command simulate{"simulate", "runs a scene without pictures and sums it up",
-                       "  weft simulate 1 --time 2\n"
-                       "  weft simulate 4 --device cpu --precision f64 --time 0.5 --out state.csv\n"
-                       "  weft simulate 1 --set wind.velocity=[0,0,5] --time 1 --format json\n"
-                       "  weft simulate 2 --check",
-                       add_simulate_options, run_simulate};
+const Command simulate_command{"simulate", "runs a scene without pictures and sums it up",
+                               "  weft simulate 1 --time 2\n"
+                               "  weft simulate 4 --device cpu --precision f64 --time 0.5 --out state.csv\n"
+                               "  weft simulate 1 --set wind.velocity=[0,0,5] --time 1 --format json\n"
+                               "  weft simulate 2 --check",
+                               add_simulate_options, run_simulate};
 
 }  // namespace weft::cli

@@ -18,8 +18,8 @@ Exit run_solvers(const Options& o) {
 
 }  // namespace
 
-const Command solvers{"solvers", "lists the solvers",
-                      "  weft solvers\n  weft simulate 1 --device cpu --solver leapfrog --time 0.5",
-                      [](CLI::App&, Options&) {}, run_solvers};
+const Command solvers_command{"solvers", "lists the solvers",
+                              "  weft solvers\n  weft simulate 1 --device cpu --solver leapfrog --time 0.5",
+                              [](CLI::App&, Options&) {}, run_solvers};
 
 }  // namespace weft::cli

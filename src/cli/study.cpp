@@ -137,10 +137,11 @@ void add_sweep_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-const Command study{"study", "measures what accuracy costs: every solver, substep count and precision",
-                    "  weft study 1 --out study-1 --quick\n"
-                    "  weft study 2 --out study-2 --time 0.5 --resolutions 20,40\n"
-                    "  weft study 5 --out study-5 --solvers leapfrog,rk4 --device cpu",
-                    add_sweep_options, run_study};
+const Command study_command{"study",
+                            "measures what accuracy costs: every solver, substep count and precision",
+                            "  weft study 1 --out study-1 --quick\n"
+                            "  weft study 2 --out study-2 --time 0.5 --resolutions 20,40\n"
+                            "  weft study 5 --out study-5 --solvers leapfrog,rk4 --device cpu",
+                            add_sweep_options, run_study};
 
 }  // namespace weft::cli

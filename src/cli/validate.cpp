@@ -132,10 +132,11 @@ void add_validate_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-const Command validate{"validate", "compares the device with the CPU reference; exit 5 when over tolerance",
-                       "  weft validate\n"
-                       "  weft validate 1 5 --format csv\n"
-                       "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
-                       add_validate_options, run_validate};
+const Command validate_command{"validate",
+                               "compares the device with the CPU reference; exit 5 when over tolerance",
+                               "  weft validate\n"
+                               "  weft validate 1 5 --format csv\n"
+                               "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
+                               add_validate_options, run_validate};
 
 }  // namespace weft::cli

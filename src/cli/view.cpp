@@ -46,7 +46,7 @@ void add_view_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-const Command view{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5", add_view_options,
-                   run_view};
+const Command view_command{"view", "opens the window (also plain `weft`)", "  weft\n  weft view 5",
+                           add_view_options, run_view};
 
 }  // namespace weft::cli
