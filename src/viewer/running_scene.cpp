@@ -94,7 +94,7 @@ Pace RunningScene::pace() const {
 }
 
 void RunningScene::keep_pace() {
-  if (paused_ || diverged_ || hand_.holds()) return;
+  if (paused_ || diverged() || hand_.holds()) return;
   if (stand_in_.active() && own_needed_of_ != shown_version_) {  // the bound takes a while: once a change
     Scene own = scene_;
     own.solver = stand_in_.own_solver();
