@@ -45,7 +45,7 @@ void Application::log() {
       running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
       window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
   const std::string figures = fmt::format(
-      "time_s={:.6f} real_time={:.3f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
+      "time_s={:.6f} real_time={:.6f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
       "scale={:.2f} "
       "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
       "stretch={:.5f} "

@@ -31,21 +31,40 @@ void device_lines(const PanelFacts& facts) {
   if (facts.software) line(kWarning, "software device: no GPU is used");
 }
 
-void pace_lines(const RunningScene& running) {
-  const Pacer& pacer = running.pacer();
+/// Two decimals, or two digits of what is too slow for them.
+std::string factor_text(double factor) {
+  return factor >= 0.095 || factor == 0.0 ? fmt::format("{:.2f}", factor) : fmt::format("{:.2g}", factor);
+}
+
+/// Until a frame is done, what to expect of it.
+std::string frame_text(const RunFigures& figures) {
+  if (figures.frame_ms > 0.0) return fmt::format("{:.1f} ms", figures.frame_ms);
+  return figures.expected_ms > 0.0 ? fmt::format("about {:.0f} ms", figures.expected_ms) : "...";
+}
+
+/// Which of the two keeps the scene from its pace.
+std::string why_slow(const RunningScene& running, const PanelFacts& facts) {
   const RunFigures& figures = running.figures();
+  const double allowed_ms = 1e3 * running.scene().solver.frame_s / running.pacer().speed();
+  const double needed_ms = figures.frame_ms > 0.0 ? figures.frame_ms : figures.expected_ms;
+  if (needed_ms > allowed_ms || facts.draw_ms <= 0.0)
+    return fmt::format("slow motion: {} for a frame of {:.1f} ms", frame_text(figures), allowed_ms);
+  return fmt::format("slow motion: a picture takes {:.0f} ms", facts.draw_ms);
+}
+
+void pace_lines(const RunningScene& running, const PanelFacts& facts) {
+  const Pacer& pacer = running.pacer();
   if (running.diverged()) {
     line(kBad, "diverged: stopped at the last good state");
   } else if (running.paused()) {
     line(kWarning, fmt::format("paused at {:.2f} s", running.simulation().time_s()));
   } else {
-    line(
-        fmt::format("{:.2f} s, {:.2f} x real time", running.simulation().time_s(), pacer.real_time_factor()));
-    if (running.stand_in().active()) line(kWarning, running.stand_in().text(figures.max_stretch));
+    line(fmt::format("{:.2f} s, {} x real time", running.simulation().time_s(),
+                     factor_text(pacer.real_time_factor())));
+    if (running.stand_in().active()) line(kWarning, running.stand_in().text(running.figures().max_stretch));
     if (!pacer.slow_motion()) return;
-    line(kWarning, figures.frame_ms > 0.0
-                       ? slow_motion_text(running.pace())
-                       : std::string("slow motion: the first frame is still being computed"));
+    line(kWarning, slow_motion_text(running.pace()));
+    line(kWarning, why_slow(running, facts));
   }
 }
 
@@ -69,10 +88,10 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   const Grid& grid = running.model().grid;
   const RunFigures& figures = running.figures();
   device_lines(facts);
-  pace_lines(running);
+  pace_lines(running, facts);
   line(fmt::format("{} x {} = {} particles", grid.nx, grid.ny, grid.count()));
   line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));
-  line(fmt::format("simulation {:.1f} ms a frame", figures.frame_ms));
+  line(fmt::format("simulation {} a frame", frame_text(figures)));
   line(fmt::format("drawing {:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.pictures_per_s));
   if (facts.scale < 0.999) line(fmt::format("drawn at {:.0f} % of the size", 100.0 * facts.scale));
   if (figures.measured_at_s >= 0.0)
@@ -191,9 +210,9 @@ bool draw_quit_question(ViewState& view) {
   ImGui::Begin("Quit?", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
   line("Quit Weft?  Enter quits, Esc stays.");
-  const bool yes = ImGui::Button("Quit", {110.0f, 0.0f});
+  const bool yes = ImGui::Button("Quit", {110.0f * ui_scale(), 0.0f});
   ImGui::SameLine();
-  if (ImGui::Button("Stay", {110.0f, 0.0f})) view.ask_quit = false;
+  if (ImGui::Button("Stay", {110.0f * ui_scale(), 0.0f})) view.ask_quit = false;
   ImGui::End();
   return yes;
 }

@@ -30,7 +30,13 @@ void Pacer::elapse(double wall_s) {
 
 void Pacer::frame_done() {
   debt_s_ -= frame_s_;
-  simulated_s_ += frame_s_;
+  frame_reached(frame_s_);
+  reached_s_ = 0.0;
+}
+
+void Pacer::frame_reached(double simulated_s) {
+  simulated_s_ += simulated_s - reached_s_;
+  reached_s_ = simulated_s;
 }
 
 void Pacer::give_up_rest() { debt_s_ = std::min(debt_s_, frame_s_); }

@@ -20,6 +20,10 @@ class Pacer {
   /// Whether another frame is owed.
   bool frame_due() const { return debt_s_ >= frame_s_ * (1.0 - 1e-9); }
   void frame_done();
+  /// So much of the frame under way is computed: it counts for the speed at once, not in one leap at the end.
+  void frame_reached(double simulated_s);
+  /// What was computed of a frame that is given up stays counted; the next one begins at nothing.
+  void begin_frame() { reached_s_ = 0.0; }
   /// Time for this picture is spent: whatever is owed beyond one frame will never be computed.
   void give_up_rest();
   /// Forgets debt and history, after a pause or a change of scene.
@@ -38,6 +42,7 @@ class Pacer {
   };
   double frame_s_, speed_ = 1.0, debt_s_ = 0.0;
   double wall_s_ = 0.0, simulated_s_ = 0.0;
+  double reached_s_ = 0.0;  // of the frame under way, counted already
   std::deque<Moment> history_;
 };
 

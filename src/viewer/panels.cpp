@@ -29,6 +29,15 @@ bool strength_slider(const char* label, glm::dvec3& vector, const glm::dvec3& ot
   return true;
 }
 
+/// The slider of an effect that is off: it stands at 0, and moving it switches the effect on with that much.
+template <class SwitchOn>
+bool off_slider(const char* label, float most, SwitchOn&& switch_on) {
+  float strength = 0.0f;
+  if (!ImGui::SliderFloat(label, &strength, 0.0f, most, "off") || strength <= 0.0f) return false;
+  switch_on(static_cast<double>(strength));
+  return true;
+}
+
 bool row(Scene& scene, std::string_view section, std::string_view key, std::string_view label) {
   const Parameter* parameter = find_parameter(section, key);
   return parameter != nullptr && parameter_widget(*parameter, scene, 0, label);
@@ -65,6 +74,43 @@ bool bending_slider(Scene& scene) {
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
   if (on) return row(scene, "material", "bend", "bending") || changed;
   ImGui::TextDisabled("bending is off");
+  return changed;
+}
+
+/// Wind, drag and gravity. The label of a slider stays the same when moving it switches its effect on.
+bool force_sliders(Scene& scene, const PanelFacts& facts) {
+  constexpr double kAway = 1.0, kDown = -1.0;  // along z and y, where no direction was ever given
+  bool changed = false;
+  if (scene.wind) {
+    changed |= strength_slider("wind [m/s]", scene.wind->velocity_m_s, {0.0, 0.0, kAway}, 20.0f);
+  } else {
+    changed |= off_slider("wind [m/s]", 20.0f, [&](double strength) {
+      add_visible_section(scene, "wind");
+      scene.wind->velocity_m_s = {0.0, 0.0, kAway * strength};
+    });
+  }
+  tooltip("strength of the mean wind; its direction is under wind below");
+  cost(facts, "wind");
+  if (scene.air) {
+    changed |= row(scene, "air", "drag", "drag");
+  } else if (const Parameter* drag = find_parameter("air", "drag")) {
+    changed |= off_slider("drag [kg/(m²·s)]##air.drag", static_cast<float>(drag->slider_maximum),
+                          [&](double strength) {
+                            add_visible_section(scene, "air");
+                            scene.air->drag_kg_m2_s = strength;
+                          });
+  }
+  cost(facts, "air");
+  if (scene.gravity) {
+    changed |= strength_slider("gravity [m/s²]", scene.gravity->acceleration_m_s2, {0.0, kDown, 0.0}, 25.0f);
+  } else {
+    changed |= off_slider("gravity [m/s²]", 25.0f, [&](double strength) {
+      add_visible_section(scene, "gravity");
+      scene.gravity->acceleration_m_s2 = {0.0, kDown * strength, 0.0};
+    });
+  }
+  tooltip("strength; its direction is under gravity below");
+  cost(facts, "gravity");
   return changed;
 }
 
@@ -129,13 +175,13 @@ void scene_buttons(const RunningScene& running, const PanelFacts& facts, PanelWi
 }  // namespace
 
 void Panels::time_controls(const RunningScene& running, PanelWishes& wishes) {
-  wishes.toggle_pause |= ImGui::Button(running.paused() ? "Go on" : "Pause", {74.0f, 0.0f});
+  wishes.toggle_pause |= ImGui::Button(running.paused() ? "Go on" : "Pause", {74.0f * ui_scale(), 0.0f});
   ImGui::SameLine();
   ImGui::BeginDisabled(!running.paused());
-  wishes.step |= ImGui::Button("Step", {74.0f, 0.0f});
+  wishes.step |= ImGui::Button("Step", {74.0f * ui_scale(), 0.0f});
   ImGui::EndDisabled();
   ImGui::SameLine();
-  wishes.reset |= ImGui::Button("Reset", {74.0f, 0.0f});
+  wishes.reset |= ImGui::Button("Reset", {74.0f * ui_scale(), 0.0f});
   float speed = static_cast<float>(running.pacer().speed());
   if (ImGui::SliderFloat("speed", &speed, 0.05f, 4.0f, "%.2f x", ImGuiSliderFlags_Logarithmic))
     wishes.speed = std::clamp(static_cast<double>(speed), 0.01, 16.0);
@@ -148,22 +194,7 @@ void Panels::quick_sliders(Scene& scene, bool& changed, const PanelFacts& facts,
   changed |= row(scene, "material", "shear", "shear");
   changed |= bending_slider(scene);
   cost(facts, "bend");
-  if (scene.wind) {
-    changed |= strength_slider("wind [m/s]", scene.wind->velocity_m_s, {0.0, 0.0, 1.0}, 20.0f);
-    tooltip("strength of the mean wind; its direction is under wind below");
-    cost(facts, "wind");
-  } else {
-    ImGui::TextDisabled("no wind (switch it on below)");
-  }
-  if (scene.air) {
-    changed |= row(scene, "air", "drag", "drag");
-    cost(facts, "air");
-  }
-  if (scene.gravity) {
-    changed |= strength_slider("gravity [m/s²]", scene.gravity->acceleration_m_s2, {0.0, -1.0, 0.0}, 25.0f);
-    tooltip("strength; its direction is under gravity below");
-    cost(facts, "gravity");
-  }
+  changed |= force_sliders(scene, facts);
   bool apart = scene.self_collision.has_value();
   if (ImGui::Checkbox("self-collision", &apart)) {
     apart ? add_visible_section(scene, "self_collision") : remove_section(scene, "self_collision");
@@ -178,7 +209,7 @@ void Panels::quick_sliders(Scene& scene, bool& changed, const PanelFacts& facts,
 void Panels::trial_controls(const PanelFacts& facts, PanelWishes& wishes) {
   if (facts.costs == nullptr) return;
   if (const EffectTrial* trial = facts.costs->trial()) {
-    wishes.stop_measuring = ImGui::Button("Stop", {74.0f, 0.0f});
+    wishes.stop_measuring = ImGui::Button("Stop", {74.0f * ui_scale(), 0.0f});
     ImGui::SameLine();
     ImGui::Text("measuring, %zu of %zu", trial->done(), trial->total());
     return;

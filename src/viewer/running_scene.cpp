@@ -43,8 +43,8 @@ RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const 
 
 void RunningScene::open(const std::string& which) {
   const LoadedScene loaded = load_scene(find_scene(which), overrides_);
+  release();  // before anything can fail: what runs on must not stay held
   const std::vector<HandPin> pins = std::exchange(hand_pins_, {});
-  hand_.let_go();
   try {
     adopt(loaded.scene, false);
   } catch (...) {
@@ -58,9 +58,9 @@ void RunningScene::open(const std::string& which) {
 
 void RunningScene::reload(bool new_shaders) {
   const LoadedScene loaded = load_scene(find_scene(which_), overrides_);
+  release();
   const std::shared_ptr<GpuPipelines> before = pipelines_;
   if (new_shaders) pipelines_ = std::make_shared<GpuPipelines>(device_);
-  hand_.let_go();
   try {
     adopt(loaded.scene, true, new_shaders);
   } catch (...) {
@@ -134,6 +134,7 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
     std::unique_ptr<GpuSimulation> next_one = made(model);
     if (state) next_one->write(*state);
     simulation_ = std::move(next_one);
+    figures_.frame_ms = figures_.expected_ms = 0.0;  // another cloth's say nothing of this one
     ++version_;
   }
   scene_ = next;
@@ -179,7 +180,7 @@ void RunningScene::begin_again() {
   under_watch_.reset();
   pieces_left_ = 0;
   figures_.measured_at_s = -1.0;
-  figures_.frame_ms = 0.0;
+  figures_.frame_ms = figures_.expected_ms = 0.0;
   pacer_.restart();
 }
 
@@ -237,7 +238,8 @@ void RunningScene::begin_piece() {
   const std::uint32_t substeps = simulation_->plan().substeps;
   if (pieces_left_ == 0) {
     pieces_ = pieces_left_ = hand_.holds() ? hand_.pieces(model().grid, frame_s, substeps) : 1;
-    frame_wall_ms_ = 0.0;
+    frame_wall_ms_ = frame_part_s_ = 0.0;
+    pacer_.begin_frame();
     watch_start();
   }
   const double piece_s = frame_s / pieces_;
@@ -250,9 +252,10 @@ void RunningScene::begin_piece() {
 bool RunningScene::continue_frame() {
   const Clock::time_point start = Clock::now();
   if (!mid_frame_) begin_piece();
+  const double before_s = simulation_->time_s();
   mid_frame_ = simulation_->continue_frame();
   simulation_->wait();
-  frame_wall_ms_ += Milliseconds(Clock::now() - start).count();
+  note_progress(simulation_->time_s() - before_s, Milliseconds(Clock::now() - start).count());
   if (!mid_frame_) stop_if_diverged();
   if (diverged()) return false;
   if (mid_frame_ || --pieces_left_ > 0) return true;
@@ -260,6 +263,15 @@ bool RunningScene::continue_frame() {
   figures_.frame_ms =
       figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * frame_wall_ms_ : frame_wall_ms_;
   return false;
+}
+
+/// A heavy frame takes many pictures: its speed and its cost are told before it is done.
+void RunningScene::note_progress(double part_s, double chunk_ms) {
+  frame_wall_ms_ += chunk_ms;
+  frame_part_s_ += part_s;
+  pacer_.frame_reached(frame_part_s_);
+  if (figures_.frame_ms == 0.0 && frame_part_s_ > 0.0)
+    figures_.expected_ms = frame_wall_ms_ * scene_.solver.frame_s / frame_part_s_;
 }
 
 /// The state before the first part of a frame, if somebody wants to see a frame.

@@ -18,7 +18,8 @@ namespace weft {
 
 /// Numbers about the run that the overlay shows.
 struct RunFigures {
-  double frame_ms = 0.0;        ///< wall time of one simulated frame, smoothed
+  double frame_ms = 0.0;        ///< wall time of one simulated frame, smoothed; 0 until one is computed
+  double expected_ms = 0.0;     ///< until then: what the part computed so far leads one to expect
   double rebuild_ms = 0.0;      ///< of the latest change of model
   double max_stretch = 0.0;     ///< read back now and then
   double measured_at_s = -1.0;  ///< simulated time of that reading; negative: none yet
@@ -126,6 +127,7 @@ class RunningScene {
   void begin_again();
   void begin_piece();
   bool continue_frame();
+  void note_progress(double part_s, double chunk_ms);
   void watch_start();
   void watch_end();
   /// Goes back to the last good state and stops there when the device found the present one unsound.
@@ -150,7 +152,7 @@ class RunningScene {
   bool paused_ = false, mid_frame_ = false;
   std::string divergence_text_;
   std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
-  double frame_wall_ms_ = 0.0;
+  double frame_wall_ms_ = 0.0, frame_part_s_ = 0.0;  // of the frame under way
   std::uint64_t version_ = 0, shown_version_ = 0;
   Clock::time_point next_measure_{};
   bool watch_wanted_ = false;

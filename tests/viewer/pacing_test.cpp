@@ -49,6 +49,29 @@ TEST(Pacer, ALongStallIsNotCaughtUp) {
   EXPECT_LE(run(pacer, 30.0, 1, 100000), static_cast<int>(Pacer::kLongest_s * 60.0) + 1);
 }
 
+// A frame of 1/60 s that takes 40 pictures of 1 s is 1/2400 of real time in each of them, not nothing in 39
+// and 1/60 in one. A frame given up half-way leaves its half counted.
+TEST(Pacer, AHeavyFrameCountsAsItIsComputed) {
+  Pacer pacer(1.0 / 60.0);
+  pacer.elapse(1.0);
+  for (int frame = 0; frame < 2; ++frame) {
+    pacer.begin_frame();
+    for (int part = 1; part <= 40; ++part) {
+      pacer.frame_reached(part / 2400.0);
+      if (part == 40) pacer.frame_done();
+      pacer.elapse(1.0);
+      EXPECT_NEAR(pacer.real_time_factor(), 1.0 / 2400.0, 1e-9) << part;
+      EXPECT_TRUE(pacer.slow_motion());
+    }
+  }
+  pacer.begin_frame();
+  pacer.frame_reached(1.0 / 2400.0);
+  pacer.begin_frame();
+  pacer.frame_reached(1.0 / 2400.0);
+  pacer.elapse(1.0);
+  EXPECT_NEAR(pacer.real_time_factor(), 2.0 / 2400.0, 1e-9);
+}
+
 TEST(Pacer, RestartForgetsTheDebt) {
   Pacer pacer(1.0 / 60.0);
   pacer.elapse(0.2);

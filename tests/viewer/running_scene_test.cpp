@@ -77,6 +77,22 @@ TEST_F(RunningSceneTest, AnotherKernelGoesOnFromTheSameBits) {
   EXPECT_EQ(other.simulation().kernel().kernel.kind, KernelKind::bands);
 }
 
+// docs/viewer.md: the window never shows another cloth's frame time, and tells an expected one meanwhile.
+TEST_F(RunningSceneTest, ANewClothHasNoFrameTimeUntilItsOwn) {
+  RunningScene running = open("1", 16);
+  frames(running, 2);
+  EXPECT_GT(running.figures().frame_ms, 0.0);
+  Scene large = running.scene();
+  large.cloth.resolution = 200;
+  running.apply(large);
+  EXPECT_EQ(running.figures().frame_ms, 0.0);
+  running.step();
+  running.advance(0.0, 1e-9);  // one part of the frame, the least there is
+  EXPECT_GT(running.mid_frame() ? running.figures().expected_ms : running.figures().frame_ms, 0.0);
+  while (running.mid_frame()) running.advance(0.0, 0.05);
+  EXPECT_GT(running.figures().frame_ms, 0.0);
+}
+
 TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
   RunningScene running = open("1");
   frames(running, 3);
