@@ -267,7 +267,10 @@ TEST_F(KernelChoiceTest, refuses_what_there_is_not_and_what_does_not_fit) {
   const Model large = build_model(parse_scene("[cloth]\nresolution = 400\n", "large.toml").scene);
   const Plan plan = compile_plan(large, find_solver("leapfrog"));
   EXPECT_THROW(named_kernel(device(), plan, "bands"), Error);
-  EXPECT_EQ(named_kernel(device(), plan, "strip").kind, KernelKind::strip);
+  if (device().limits().maxTexelBufferElements >= large.grid.count())
+    EXPECT_EQ(named_kernel(device(), plan, "strip").kind, KernelKind::strip);
+  else  // SwiftShader reads 65 536 texels of a buffer
+    EXPECT_THROW(named_kernel(device(), plan, "strip"), Error);
   bool left_out = false;
   for (const KernelCandidate& candidate : kernel_candidates(device(), plan))
     if (candidate.kernel.kind == KernelKind::bands)
