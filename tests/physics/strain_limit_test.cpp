@@ -1,6 +1,7 @@
 // The strain limit: what it holds, keeps and takes, and that it costs nothing where it is absent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
