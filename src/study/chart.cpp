@@ -14,8 +14,9 @@
 namespace weft::study {
 namespace {
 
-constexpr double kWidth = 1020, kHeight = 640;
+constexpr double kWidth = 1020, kHeight = 692;
 constexpr double kLeft = 92, kRight = 752, kTop = 104, kBottom = 566;
+constexpr double kAxisTitle = 614, kFloorRows = 640, kFloorPitch = 22;
 constexpr double kMargin = 30;  // above the plot, where diverged settings stand
 constexpr double kRealTime_ms_per_s = 1000.0;
 constexpr double kMarker = 5.0;
@@ -76,6 +77,7 @@ class Diagram {
     svg_.rectangle(kLeft, kTop - kMargin, kRight - kLeft, kBottom - kTop + kMargin,
                    {.stroke = "#222222", .width = 1.2});
     draw_legend();
+    draw_floor_rows();
     return svg_.document(study_.title + ": work-precision diagram");
   }
 
@@ -93,7 +95,7 @@ class Diagram {
         std::any_of(points_.begin(), points_.end(), [](const Point& p) { return p.wall_clock; });
     const std::string time =
         wall ? "wall time [ms per simulated second]" : "device time [ms per simulated second]";
-    svg_.text(0.5 * (kLeft + kRight), kHeight - 26,
+    svg_.text(0.5 * (kLeft + kRight), kAxisTitle,
               axis_ == CostAxis::device_time ? time : "spring evaluations per simulated second",
               {.size = 15, .anchor = "middle"});
     svg_.text(26, 0.5 * (kTop + kBottom), "error: largest RMS distance to the reference [m]",
@@ -115,42 +117,57 @@ class Diagram {
     svg_.text(kLeft - 9, kTop - 9, "diverged", {.size = 13, .anchor = "end"});
   }
 
-  /// A band from the diagram's foot up to an error that something else already makes.
-  void draw_floor(double error_m, const std::string& color, const std::string& words, bool on_the_right) {
-    if (!(error_m > 0.0) || !std::isfinite(error_m)) return;
-    const double y = std::min(y_.at(error_m), kBottom);
-    svg_.rectangle(kLeft, y, kRight - kLeft, kBottom - y, {.fill = color, .opacity = 0.14});
-    if (y >= kBottom - 1) return;
-    svg_.line({kLeft, y}, {kRight, y}, {.stroke = color, .width = 1.4, .dash = "8 5"});
-    note(on_the_right ? kRight - 8 : kLeft + 8, std::min(y + 16, kBottom - 5), words,
-         {.size = 12, .anchor = on_the_right ? "end" : "start", .color = color});
-  }
+  /// What bounds the meaning of an error: a line across the plot, shaded below where errors mean nothing.
+  struct Floor {
+    double error_m;
+    const char *color, *dash;
+    bool shaded;
+    std::string words;
+  };
 
-  /// Words on a paper-coloured ground, so that no line runs through them.
-  void note(double x, double y, const std::string& words, const Words& look) {
-    const double width = 0.55 * look.size * static_cast<double>(words.size());
-    svg_.rectangle(look.anchor == "end" ? x - width : x - 3, y - 0.85 * look.size, width + 3,
-                   1.15 * look.size, {.fill = "#ffffff", .opacity = 0.75});
-    svg_.text(x, y, words, look);
+  /// Those that are known, from the largest error to the least.
+  std::vector<Floor> floors() const {
+    std::vector<Floor> list;
+    const auto add = [&](double error_m, const char* color, const char* dash, bool shaded,
+                         const std::string& words) {
+      if (error_m > 0.0 && std::isfinite(error_m))
+        list.push_back({error_m, color, dash, shaded, fmt::format("{}: {:.1e} m", words, error_m)});
+    };
+    add(cloth_.discretisation_m, "#4a2c7a", "10 4 2 4", false,
+        fmt::format("the same cloth, {} particles wide", cloth_.fine_nx));
+    add(cloth_.twin_m, "#555555", "8 5", true, "twins 1e-7 m apart drift this far");
+    add(cloth_.float_floor_m, "#8a4b08", "3 3", true, "leapfrog in float32, against half its step");
+    add(cloth_.agreement_m, "#7a0019", "14 4", true, "the reference is known to this");
+    return list;
   }
 
   void draw_floors() {
-    draw_floor(cloth_.twin_m, "#555555", "twins 1e-7 m apart drift this far", true);
-    draw_floor(cloth_.float_floor_m, "#8a4b08", "leapfrog in float32 against itself at half the step", false);
-    draw_floor(cloth_.agreement_m, "#7a0019", "the reference is known to this", true);
-    if (!(cloth_.discretisation_m > 0.0)) return;
-    const double y = y_.at(cloth_.discretisation_m);
-    svg_.line({kLeft, y}, {kRight, y}, {.stroke = "#4a2c7a", .width = 1.4, .dash = "10 4 2 4"});
-    svg_.text(kRight - 8, y - 6,
-              fmt::format("the same cloth with {} particles along the width", cloth_.fine_nx),
-              {.size = 12, .anchor = "end", .color = "#4a2c7a"});
+    for (const Floor& floor : floors()) {
+      const double y = std::min(y_.at(floor.error_m), kBottom);
+      if (floor.shaded)
+        svg_.rectangle(kLeft, y, kRight - kLeft, kBottom - y, {.fill = floor.color, .opacity = 0.14});
+      if (y < kBottom - 1)
+        svg_.line({kLeft, y}, {kRight, y}, {.stroke = floor.color, .width = 1.6, .dash = floor.dash});
+    }
+  }
+
+  /// The floors' names and numbers, two columns under the axis: in the plot they would lie under the data.
+  void draw_floor_rows() {
+    std::size_t row = 0;
+    for (const Floor& floor : floors()) {
+      const double x = kLeft + (row % 2 == 0 ? 0.0 : 450.0);
+      const double y = kFloorRows + kFloorPitch * static_cast<double>(row / 2);
+      if (floor.shaded) svg_.rectangle(x, y, 40, 9, {.fill = floor.color, .opacity = 0.14});
+      svg_.line({x, y}, {x + 40, y}, {.stroke = floor.color, .width = 1.6, .dash = floor.dash});
+      svg_.text(x + 50, y + 5, floor.words, {.size = 13, .color = floor.color});
+      ++row;
+    }
   }
 
   void draw_real_time() {
     if (axis_ != CostAxis::device_time || !x_.contains(kRealTime_ms_per_s)) return;
     const double x = x_.at(kRealTime_ms_per_s);
     svg_.line({x, kTop - kMargin}, {x, kBottom}, {.stroke = "#b00020", .width = 1.8});
-    svg_.text(x - 5, kBottom - 10, "real time", {.size = 13, .color = "#b00020", .turned_deg = -90});
   }
 
   void draw_front() {
@@ -159,10 +176,15 @@ class Diagram {
     if (line.size() > 1) svg_.path(line, false, {.stroke = "#f0e442", .width = 11, .opacity = 0.8});
   }
 
+  /// Substeps beside the front's markers, on a paper-coloured ground, so that no line runs through them.
   void draw_front_labels() {
-    for (const Point* point : pareto_front(points_, cost_))
-      svg_.text(place(*point).first - 9, place(*point).second + 14, std::to_string(point->setting.substeps),
-                {.size = 11, .anchor = "end", .color = "#222222"});
+    for (const Point* point : pareto_front(points_, cost_)) {
+      const std::string words = std::to_string(point->setting.substeps);
+      const double x = place(*point).first - 9, y = std::min(place(*point).second + 15, kBottom - 3);
+      const double width = 7.2 * static_cast<double>(words.size());
+      svg_.rectangle(x - width - 1, y - 9, width + 2, 11, {.fill = "#ffffff", .opacity = 0.8});
+      svg_.text(x, y, words, {.size = 11, .anchor = "end", .color = "#222222"});
+    }
   }
 
   void draw_series(const Series& series) {
@@ -178,7 +200,8 @@ class Diagram {
         draw_marker(svg_, series.solver, x, y_.at(point.error_m), series.precision == "f64");
         continue;
       }
-      const double y = kTop - 0.5 * kMargin;
+      // A height of its own for each solver, so that crosses at the same cost can be told apart.
+      const double y = kTop - 0.5 * kMargin + 2.4 * (static_cast<double>(solver_place(series.solver)) - 3.5);
       const Paint cross{.stroke = solver_color(series.solver), .width = 2.2};
       svg_.line({x - 5, y - 5}, {x + 5, y + 5}, cross);
       svg_.line({x - 5, y + 5}, {x + 5, y - 5}, cross);
@@ -208,7 +231,7 @@ class Diagram {
     words("diverged");
     if (axis_ != CostAxis::device_time) return;
     svg_.line({x + 20, y - 9}, {x + 20, y + 9}, {.stroke = "#b00020", .width = 1.8});
-    words(x_.contains(kRealTime_ms_per_s) ? "real time" : "real time: out of range");
+    words(x_.contains(kRealTime_ms_per_s) ? "real time: 1000 ms" : "real time: out of range");
   }
 
   const Study& study_;

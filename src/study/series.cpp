@@ -24,14 +24,14 @@ constexpr std::array kMarkers = {Marker{},
                                  Marker{3, 1.45, kPi / 2},  // triangle to the right
                                  Marker{6, 1.3, 0.0}};
 
+}  // namespace
+
 std::size_t solver_place(std::string_view name) {
   const auto list = solvers();
   for (std::size_t s = 0; s < list.size(); ++s)
     if (list[s]->name == name) return s;
   return list.size();
 }
-
-}  // namespace
 
 std::vector<Series> series_of(const std::vector<Point>& points) {
   std::vector<Series> list;

@@ -19,6 +19,9 @@ struct Series {
 /// The points as lines, in the order of the list of solvers.
 std::vector<Series> series_of(const std::vector<Point>& points);
 
+/// A solver's place in the list of solvers; their number for a name that is not there.
+std::size_t solver_place(std::string_view name);
+
 /// A solver's colour ("#rrggbb") in every diagram: those of Okabe and Ito, told apart by everyone.
 std::string solver_color(std::string_view solver);
 
