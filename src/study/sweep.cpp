@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "plan/plan.h"
 #include "study/equilibrium.h"
 #include "study/identity.h"
 #include "study/study.h"
@@ -24,6 +25,7 @@ constexpr double kUnbounded[] = {1.0, 5.0, 0.25, 2.5, 10.0, 0.5};
 constexpr std::size_t kQuickBounded = 4, kQuickUnbounded = 3;
 
 constexpr double kQuickSeconds = 105.0;  // of the two minutes that --quick promises
+constexpr double kNoLimit_s = 1e8;
 constexpr double kQuickReferenceSeconds = 25.0;
 
 // rk4 in double is swept up to 4 (quick) or 8 times its automatic count. Two refinements beyond, the
@@ -184,16 +186,27 @@ class Sweep {
     return tasks;
   }
 
-  /// Seconds that a setting will take: two runs and a warm-up, from a point of the same solver.
+  std::uint64_t dispatches(const Part& part, const Setting& setting) const {
+    return compile_plan(with_setting(part.model, setting), find_solver(setting.solver), setting.precision)
+        .dispatches();
+  }
+
+  /// Seconds that a setting will take: two runs and a warm-up, from a point of the same solver; before there
+  /// is one, from the dearest dispatch of the others, so that even a first point is not begun in vain.
   double expected_s(const Task& task) const {
-    const std::uint32_t nx = parts_[task.part].model.grid.nx;
+    const Part& part = parts_[task.part];
+    double dearest_ms = 0.0;  // a dispatch, per simulated second
     for (const Point& known : study_.points) {
-      const bool alike = known.nx == nx && known.setting.solver == task.setting.solver &&
-                         known.setting.precision == task.setting.precision;
+      if (known.nx != part.model.grid.nx) continue;
+      const bool alike =
+          known.setting.solver == task.setting.solver && known.setting.precision == task.setting.precision;
       if (alike)
         return 2.2e-3 * known.ms_per_s * options_.time_s * task.setting.substeps / known.setting.substeps;
+      dearest_ms =
+          std::max(dearest_ms, known.ms_per_s / static_cast<double>(dispatches(part, known.setting)));
     }
-    return 0.0;
+    if (dearest_ms == 0.0) return 0.0;
+    return 2.2e-3 * dearest_ms * options_.time_s * static_cast<double>(dispatches(part, task.setting));
   }
 
   void run_task(const Task& task) {
@@ -202,7 +215,7 @@ class Sweep {
       study_.points.push_back(std::move(*kept));
       return;
     }
-    if (elapsed_s() + expected_s(task) > seconds_) {
+    if (elapsed_s() > seconds_ || (seconds_ < kNoLimit_s && elapsed_s() + expected_s(task) > seconds_)) {
       ++skipped_;
       return;
     }
