@@ -1,5 +1,6 @@
 // All solvers on all hard cases, on the CPU reference and on a device; and a fine stiff cloth on a sphere.
 #include "hard_cases/judge.h"
+#include "scene/reader.h"
 
 namespace weft::hard {
 namespace {
