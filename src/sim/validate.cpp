@@ -107,6 +107,9 @@ class Validator {
     std::string check;  ///< "lockstep" with the direct kernel, else "lockstep, kernel strip"
     std::unique_ptr<Simulation> simulation;
   };
+  std::vector<std::string> kernel_names() const {
+    return options_.every_kernel ? fitting_kernel_names(device_, plan_) : std::vector<std::string>{"direct"};
+  }
   void start_runners(const Perturbation& perturbation);
   void check_frame(const ProbeState& probe);
   void check_step(std::size_t step, std::uint32_t substep, Walk& walk);
@@ -139,7 +142,7 @@ void Validator<T>::check_passes(const Perturbation& perturbation) {
 
 template <class T>
 void Validator<T>::start_runners(const Perturbation& perturbation) {
-  for (const std::string& name : fitting_kernel_names(device_, plan_)) {
+  for (const std::string& name : kernel_names()) {
     const Kernel kernel = named_kernel(device_, plan_, name);
     runners_.push_back(
         {name == "direct" ? "" : ", kernel " + name, kernel,
@@ -325,7 +328,7 @@ void Validator<T>::compare_states(const KernelRun& run, const std::string& name)
 /// Every kind of kernel that fits the device, and the references.
 template <class T>
 void Validator<T>::start_runs() {
-  for (const std::string& kernel : fitting_kernel_names(device_, plan_))
+  for (const std::string& kernel : kernel_names())
     device_runs_.push_back(
         {kernel == "direct" ? "lockstep" : "lockstep, kernel " + kernel,
          GpuSimulation::create(device_, model_, solver_,
