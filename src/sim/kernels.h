@@ -56,6 +56,10 @@ Kernel direct_kernel(const gpu::Device&, const Plan&);
 /// where it is known to be several times as fast as the direct one, which runs elsewhere.
 Kernel untried_kernel(const gpu::Device&, const Plan&);
 
+/// What runs where nothing may stall and nothing is remembered: a software driver compiles `texel` in half a
+/// second, and untried_kernel() in five (docs/performance.md).
+Kernel responsive_kernel(const gpu::Device&, const Plan&);
+
 /// The first candidate of that kind.
 /// @throws Error(Exit::usage) for an unknown name, or a kernel that does not fit: why, and what does
 Kernel named_kernel(const gpu::Device&, const Plan&, const std::string& name);

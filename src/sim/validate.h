@@ -14,7 +14,7 @@ struct ValidationOptions {
   std::string perturb;  ///< "pass.constant" to falsify on the device; empty: WEFT_PERTURB, else none
   std::uint32_t lockstep_substeps = 100;  ///< of one frame of that many automatic substeps
   std::uint32_t lockstep_frames = 2;      ///< whole frames after them
-  bool every_kernel = true;  ///< of those that fit the device; else the direct one alone
+  bool every_kernel = true;               ///< of those that fit the device; else the direct one alone
   bool assume_inexact = false;  ///< judge a software device, too, by the law for those that round otherwise
 };
 

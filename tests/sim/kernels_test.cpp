@@ -182,7 +182,9 @@ TEST_F(KernelChoiceTest, tries_nothing_where_no_trial_is_allowed) {
   EXPECT_EQ(untried.kind, KernelKind::steal);  // of a software device
   EXPECT_EQ(choose("", KernelTrial::when_named).how, "default");
   EXPECT_EQ(choose("", KernelTrial::when_named).kernel, untried);
-  EXPECT_EQ(choose("auto", KernelTrial::never).kernel, untried);
+  EXPECT_EQ(choose("auto", KernelTrial::never).kernel, responsive_kernel(device(), plan_));
+  EXPECT_EQ(responsive_kernel(device(), plan_).kind,
+            KernelKind::texel);  // a window must not wait for a compiler
   const ScopedEnvironment wish("WEFT_KERNEL", "texel");
   EXPECT_EQ(choose("", KernelTrial::when_named).kernel.kind, KernelKind::texel);
   EXPECT_EQ(choose("strip").kernel.kind, KernelKind::strip);  // a name given wins
