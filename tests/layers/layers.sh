@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Holds every #include of src/ and shaders/ against the layers of docs/ARCHITECTURE.md: left never includes right.
 #   shared → core → scene → model → passes → solvers → plan;  core → gpu;
-#   {plan, gpu} → sim → {study, render} → {cli, viewer}
+#   {plan → native, gpu} → sim → {study, render} → {cli, viewer}
 # Usage: tests/layers/layers.sh ROOT     prints file:line of each breach; exit 1 when there is one
 set -euo pipefail
 cd "$1"
@@ -15,12 +15,13 @@ declare -A may=(
   [passes]="shared core scene model"
   [solvers]="shared core scene model passes"
   [plan]="shared core scene model passes solvers"
+  [native]="shared core scene model passes solvers plan"
   [gpu]="core"
-  [sim]="shared core scene model passes solvers plan gpu"
-  [study]="shared core scene model passes solvers plan gpu sim"
-  [render]="shared draw core scene model passes solvers plan gpu sim"
-  [viewer]="shared draw core scene model passes solvers plan gpu sim study render"
-  [cli]="shared core scene model passes solvers plan gpu sim study render viewer"
+  [sim]="shared core scene model passes solvers plan native gpu"
+  [study]="shared core scene model passes solvers plan native gpu sim"
+  [render]="shared draw core scene model passes solvers plan native gpu sim"
+  [viewer]="shared draw core scene model passes solvers plan native gpu sim study render"
+  [cli]="shared core scene model passes solvers plan native gpu sim study render viewer"
 )
 # Folders that may see Vulkan and the window.
 vulkan=" gpu sim study render viewer cli "

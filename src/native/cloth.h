@@ -1,0 +1,67 @@
+// A cloth as the vector kernels hold it: rows of coordinates and deduplicated blocks of coefficients.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+#include "native/kernel.h"
+#include "passes/pass.h"
+
+namespace weft::native {
+
+/// Frees what was allocated for vectors.
+struct AlignedDelete {
+  void operator()(float* memory) const;
+};
+
+/// Zeroed floats at an address that is a multiple of 64.
+using Floats = std::unique_ptr<float[], AlignedDelete>;
+Floats make_floats(std::size_t count);
+
+/// A frame's schedule as the kernels read it.
+class KickTable {
+ public:
+  KickTable() = default;
+  KickTable(const Model& model, std::span<const KickDrift> rows);
+  std::span<const Kick> kicks() const { return kicks_; }
+
+ private:
+  std::vector<Sphere> spheres_;
+  std::vector<Kick> kicks_;
+};
+
+class Cloth {
+ public:
+  /// @param constants  of the plan's step: which effects there are
+  Cloth(const Model& model, std::span<const Constant> constants);
+
+  const Sheet& sheet() const { return sheet_; }
+  const Outside& outside() const { return outside_; }
+  std::uint32_t variant() const { return variant_; }  ///< SweepEffect bits
+  std::size_t nx() const { return nx_; }
+  std::size_t ny() const { return ny_; }
+  std::size_t row_floats() const { return 6 * sheet_.stride; }
+  /// Row j; two rows beyond the last are there and stay 0.
+  float* row(std::size_t j) { return state_.get() + j * row_floats(); }
+  const std::vector<float>& relative_inverse_mass() const { return relative_inverse_mass_; }
+  std::uint64_t bytes() const;
+  std::size_t distinct_blocks() const { return blocks_.size(); }
+
+  void load(const State& state);
+  void store(State& state);
+
+ private:
+  void make_blocks(const Model& model);
+  std::size_t nx_, ny_;
+  Sheet sheet_{};
+  Outside outside_{};
+  std::uint32_t variant_ = 0;
+  Floats state_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> block_of_;
+  std::vector<float> relative_inverse_mass_;
+};
+
+}  // namespace weft::native

@@ -1,0 +1,60 @@
+// Contact of a vector of particles with spheres and the floor, operation by operation as docs/float-form.md
+// "Contact". Included by kernel_text.h.
+
+struct Touched {
+  Vec3 x, v;
+};
+
+/// No approach along n, Coulomb friction on the rest.
+WEFT_INLINE Vec3 respond(Vec3 v, Vec3 surface, Vec3 n, Vec friction) {
+  const Vec3 relative = v - surface;
+  const Vec approach = dot(relative, n);
+  const Vec3 tangential = relative - approach * n;
+  const Vec speed = root(dot(tangential, tangential));
+  const Vec cut = friction * (-approach);
+  const Vec keep = select(speed > cut, splat(1.0f) - cut / speed, Vec{});
+  return select(approach >= Vec{}, v, surface + keep * tangential);
+}
+
+/// Out of line, for it is rare: some lane may be touched.
+__attribute__((noinline)) void touch_sphere(const Sphere& sphere, const Vec3& x0, Vec3& x1, Vec3& v) {
+  const Vec3 center = splat3(sphere.center);
+  const Vec3 p0 = x0 - (center - splat3(sphere.travel)), p1 = x1 - center, path = p1 - p0;
+  const Vec reach = splat(sphere.reach), depth = splat(0.99f) * reach;
+  const Vec depth2 = depth * depth, reach2 = reach * reach, zero{};
+  const Vec a = dot(path, path), b = dot(p0, path), c0 = dot(p0, p0), c1 = dot(p1, p1);
+  const Vec nearest = select(dot(p1, path) > zero, c0 - (b * b) / a, c1);
+  const Mask entered = (b < zero) & (c0 >= depth2) & (nearest < depth2);
+  const Mask hit = entered | (c1 < reach2);
+  const Vec k = b * b - a * (c0 - reach2);
+  const Vec tau = (-b - root(select(k < zero, zero, k))) / a;
+  const Vec3 point = select(entered, p0 + select(tau < zero, zero, tau) * path, p1);
+  const Vec l = root(dot(point, point));
+  const Vec3 up{zero, splat(1.0f), zero};
+  const Vec3 n = select(l > splat(kNoLength), (splat(1.0f) / l) * point, up);
+  x1 = select(hit, center + reach * n, x1);
+  v = select(hit, respond(v, splat3(sphere.velocity), n, splat(sphere.friction)), v);
+}
+
+/// Whether touch_sphere would change anything: a particle ends inside, or passes its nearest point in this
+/// very drift, which few do.
+WEFT_INLINE bool may_touch(const Sphere& sphere, Vec3 x0, Vec3 x1) {
+  const Vec3 center = splat3(sphere.center);
+  const Vec3 p0 = x0 - (center - splat3(sphere.travel)), p1 = x1 - center, path = p1 - p0;
+  const Vec reach = splat(sphere.reach);
+  return any((dot(p1, p1) < reach * reach) | ((dot(p0, path) < Vec{}) & (dot(p1, path) > Vec{})));
+}
+
+WEFT_INLINE Touched touch(const Outside& outside, const Kick& kick, Vec3 x0, Touched free) {
+  Touched now = free;
+  for (std::uint32_t s = 0; s < outside.sphere_count; ++s)
+    if (may_touch(kick.spheres[s], x0, now.x)) touch_sphere(kick.spheres[s], x0, now.x, now.v);
+  if (!outside.has_floor) return now;
+  const Vec height = splat(outside.floor_height);
+  const Mask below = now.x.y < height;
+  if (!any(below)) return now;
+  now.x.y = select(below, height, now.x.y);
+  const Vec3 up{Vec{}, splat(1.0f), Vec{}}, still{};
+  now.v = select(below, respond(now.v, still, up, splat(outside.floor_friction)), now.v);
+  return now;
+}

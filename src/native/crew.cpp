@@ -1,0 +1,39 @@
+// Between two rounds helpers sleep, and only those that have work are woken: an idle cloth takes no core.
+#include "native/crew.h"
+
+namespace weft::native {
+
+Crew::Crew(std::uint32_t helpers) : calls_(helpers + 1) {
+  threads_.reserve(helpers);
+  for (std::uint32_t own = 1; own <= helpers; ++own) threads_.emplace_back([this, own] { help(own); });
+}
+
+Crew::~Crew() {
+  stopping_ = true;
+  for (std::uint32_t own = 1; own < size(); ++own) call(own);
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Crew::run(std::uint32_t count, const std::function<void(std::uint32_t)>& task) {
+  task_ = &task;
+  busy_.store(count - 1, std::memory_order_relaxed);
+  for (std::uint32_t own = 1; own < count; ++own) call(own);
+  task(0);
+  wait_until([this] { return busy_.load(std::memory_order_acquire) == 0; });
+}
+
+void Crew::call(std::uint32_t own) {
+  calls_[own].round.fetch_add(1, std::memory_order_release);
+  calls_[own].round.notify_one();
+}
+
+void Crew::help(std::uint32_t own) {
+  for (std::uint32_t seen = 0;; ++seen) {
+    calls_[own].round.wait(seen, std::memory_order_acquire);
+    if (stopping_) return;
+    (*task_)(own);
+    busy_.fetch_sub(1, std::memory_order_release);
+  }
+}
+
+}  // namespace weft::native

@@ -1,0 +1,61 @@
+// Threads that wait for work between frames, and the wait they share: spin shortly, then give way.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace weft::native {
+
+/// Calls `done` until it says yes: 200 times at once, with the processor's pause between, then after giving
+/// the core away each time. With fewer cores than threads, longer spinning keeps from running whom it waits
+/// for.
+template <class Done>
+void wait_until(Done&& done);
+
+/// One thread and its helpers. Not for two callers at a time.
+class Crew {
+ public:
+  explicit Crew(std::uint32_t helpers);
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(threads_.size()) + 1; }
+  /// Runs task(0) in the caller and task(1) … task(count − 1) in helpers, all at the same time; returns when
+  /// all are done. `task` must not throw. count is at most size().
+  void run(std::uint32_t count, const std::function<void(std::uint32_t)>& task);
+
+ private:
+  /// One helper's call: a round it has not seen yet.
+  struct alignas(64) Call {
+    std::atomic<std::uint32_t> round{0};
+  };
+  void help(std::uint32_t own);
+  void call(std::uint32_t own);
+
+  const std::function<void(std::uint32_t)>* task_ = nullptr;
+  bool stopping_ = false;
+  std::vector<Call> calls_;  ///< by task; the first is the caller's and unused
+  alignas(64) std::atomic<std::uint32_t> busy_{0};
+  std::vector<std::thread> threads_;
+};
+
+inline void pause_briefly() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+template <class Done>
+void wait_until(Done&& done) {
+  constexpr int kPausesMax = 200;
+  for (int pauses = 0; pauses < kPausesMax; ++pauses) {
+    if (done()) return;
+    pause_briefly();
+  }
+  while (!done()) std::this_thread::yield();
+}
+
+}  // namespace weft::native

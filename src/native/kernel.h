@@ -1,0 +1,93 @@
+// What a vector kernel reads and writes, as plain data: the files that implement it are compiled for
+// instructions that this machine may not have, so that they may share no inline function with the others.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace weft::native {
+
+/// Floats of the widest vector. Rows, blocks and pads are multiples of it, whatever the kernel's width.
+inline constexpr std::size_t kColumns = 16;
+
+/// A pair's K, L and c by column, as docs/float-form.md has them; 0 where the pair does not exist.
+struct PairColumns {
+  float k[kColumns], l[kColumns], c[kColumns];
+};
+
+/// The pairs of a particle by its place in Block::pairs, in the order in which the sweep evaluates them.
+enum PairName { kPair01, kPairT, kPair10, kPair11, kPair20, kPair02, kPairCount };
+
+/// Everything immutable about sixteen particles of a row.
+struct alignas(64) Block {
+  PairColumns pairs[kPairCount];
+  float inverse_mass[kColumns];  ///< [1/kg]; 0: pinned, or beyond the cloth
+  std::uint32_t has_fixed;       ///< whether any inverse mass is 0
+};
+
+/// One sphere during one drift [m, m/s].
+struct Sphere {
+  float center[3], travel[3], velocity[3];
+  float reach, friction;
+};
+
+/// One row of the schedule, rounded once; passes/coefficients.h says what each is.
+struct Kick {
+  float alpha_wind[3], loss, gain, drift;
+  const Sphere* spheres;  ///< Outside::sphere_count of them
+};
+
+/// What acts on every particle alike.
+struct Outside {
+  float gravity[3];
+  float floor_height, floor_friction;
+  std::uint32_t has_gravity, has_wind, has_floor, sphere_count;
+};
+
+/// The cloth's rows. A row is x[stride] y[stride] z[stride] vx[stride] vy[stride] vz[stride], and column i is
+/// at kColumns + i: a pad of sixteen finite floats stands on either side.
+struct Sheet {
+  std::size_t stride, block_count;
+  const Block* blocks;
+  const std::uint32_t* block_of;  ///< by row and block
+};
+
+/// One sweep over rows [first, last): kick and drift, in place.
+struct Sweep {
+  Sheet sheet;
+  Outside outside;
+  const Kick* kick;
+  float* const* rows;  ///< by row, from first − 2 (where there is one) to last + 1
+  std::size_t first, last;
+  float *carried, *carried_two;  ///< P, and the (0,2) pairs' forces of the row above: 3·stride each
+};
+
+/// Vertex normals of rows [first, last) of a cloth of nx × ny, and what is drawn.
+struct Surface {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;             ///< by row
+  const float* relative_inverse_mass;   ///< position.w, by particle
+  float *position, *velocity, *normal;  ///< vec4 a particle; velocity may be null
+};
+
+/// Which variant of the sweep: what is absent costs nothing.
+enum SweepEffect : std::uint32_t { kDamping = 1, kShear = 2, kTwoApart = 4, kAir = 8, kContact = 16 };
+inline constexpr std::uint32_t kSweepVariants = 32;
+
+/// One width's functions.
+struct Kernels {
+  const char* name;  ///< "AVX-512"
+  std::uint32_t lanes;
+  void (*sweep[kSweepVariants])(const Sweep&);
+  void (*surface)(const Surface&);
+  /// `repeats` square roots and divisions of a vector each, as many at a time as hide their latency; returns
+  /// their sum so that nobody leaves them out. What the sweep needs of the divider at least.
+  float (*divide)(std::uint64_t repeats);
+};
+
+/// The kernels; null where this build or this machine has no such instructions.
+const Kernels* kernels_plain();
+const Kernels* kernels_v2();  ///< x86-64-v2: four lanes
+const Kernels* kernels_v3();  ///< AVX2: eight
+const Kernels* kernels_v4();  ///< AVX-512: sixteen
+
+}  // namespace weft::native
