@@ -33,8 +33,8 @@ std::string described(const study::Point& p, double frame_s) {
 
 study::Study study_of(const Options& o, const Scene& scene, double time_s) {
   std::unique_ptr<gpu::Device> device;
-  if (!o.on_cpu()) device = open_device(o);
-  const study::Bench bench = study_bench(device.get());
+  if (o.on_vulkan()) device = open_device(o);
+  const study::Bench bench = study_bench(o, device.get());
   stop_between_frames();
   if (!study::kept_study(scene, bench.label, time_s))
     note(o,

@@ -1,8 +1,9 @@
-// `weft devices`: the ranked list that --device chooses from, and the CPU reference.
+// `weft devices`: the ranked list that --device chooses from, the CPU reference and the vector units.
 #include "cli/command.h"
 #include "cli/setup.h"
 #include "cli/table.h"
 #include "gpu/device.h"
+#include "native/features.h"
 
 namespace weft::cli {
 namespace {
@@ -38,8 +39,10 @@ Exit run_devices(const Options& o) {
   for (const gpu::DeviceInfo& info : found) table.rows.push_back(row_of(info));
   table.rows.push_back(
       {"cpu", "CPU reference", "reference", true, nullptr, nullptr, nullptr, true, nullptr, "yes"});
+  table.rows.push_back({"native", fmt::format("CPU, {}", native::find_kernels().name), "vector units", true,
+                        nullptr, nullptr, nullptr, false, nullptr, "yes"});
   print_result(to_text(table, o.format));
-  if (found.empty()) note(o, "there is no Vulkan device; install a driver, or use --device cpu");
+  if (found.empty()) note(o, "there is no Vulkan device; install a driver, or use --device native");
   return Exit::ok;
 }
 

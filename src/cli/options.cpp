@@ -104,11 +104,12 @@ std::vector<std::string> parse_list(std::string_view option, const std::string& 
 }  // namespace
 
 void add_shared_options(CLI::App& app, Options& o) {
-  add_text(app, "--device", "any part of a device's name, its index, its UUID, or cpu", "NAME",
+  add_text(app, "--device", "any part of a device's name, its index, its UUID, cpu or native", "NAME",
            [&o](const std::string& text) {
              if (text.empty())
-               throw Error(Exit::usage, "--device is empty; give a name, an index, a UUID or cpu");
-             o.device = in_lower_case(text) == "cpu" ? "cpu" : text;  // device names ignore case
+               throw Error(Exit::usage, "--device is empty; give a name, an index, a UUID, cpu or native");
+             const std::string lower = in_lower_case(text);  // device names ignore case
+             o.device = lower == "cpu" || lower == "native" ? lower : text;
            });
   add_scene_key_options(app, o);
   add_text(app, "--time", "how long to simulate [s]; default 5", "SECONDS", [&o](const std::string& text) {

@@ -30,10 +30,10 @@ struct StudyOptions {
 /// One command line. Scene keys (`--set`, `--resolution`, …) stay TOML assignments for the scene reader.
 struct Options {
   std::vector<std::string> scenes;
-  std::string device;                   ///< name, index, UUID or "cpu"; empty: the first usable Vulkan device
-  std::vector<std::string> set;         ///< `--set`, in order
-  std::optional<std::string> material;  ///< `--material`
-  std::optional<std::string> solver;    ///< `--solver`
+  std::string device;                       ///< name, index, UUID, cpu, native; empty: the first device
+  std::vector<std::string> set;             ///< `--set`, in order
+  std::optional<std::string> material;      ///< `--material`
+  std::optional<std::string> solver;        ///< `--solver`
   std::optional<std::uint32_t> resolution;  ///< `--resolution`
   std::optional<std::uint32_t> substeps;    ///< `--substeps`; 0 = auto
   std::optional<std::string> precision;     ///< `--precision`
@@ -51,7 +51,9 @@ struct Options {
   std::string command_line;  ///< as typed, for reports
   std::string perturb;       ///< PASS.CONSTANT, `validate` only
 
-  bool on_cpu() const { return device == "cpu"; }
+  bool on_cpu() const { return device == "cpu"; }        ///< the reference
+  bool on_native() const { return device == "native"; }  ///< the CPU's vector units
+  bool on_vulkan() const { return !on_cpu() && !on_native(); }
   /// `--time`, else 5 s.
   double time_or_default_s() const { return time_s.value_or(5.0); }
 };

@@ -7,14 +7,20 @@
 #include "core/error.h"
 #include "gpu/log.h"
 #include "gpu/shader.h"
+#include "sim/native_simulation.h"
 
 namespace weft::cli {
 namespace {
 
 void require_device_solver(const Options& o, const Scene& scene, const Solver& solver) {
-  if (o.on_cpu() || solver.on_gpu) return;
+  if (!o.on_vulkan() || solver.on_gpu) return;
   throw error(Exit::usage, "{}: solver {} runs on the CPU reference only; run it with --device cpu",
               scene.source, solver.name);
+}
+
+void note_what_native_lacks(const Options& o, const Setup& setup) {
+  const std::string lacks = native_lacks(setup.model, *setup.solver, setup.scene().solver.precision);
+  if (!lacks.empty()) note(o, lacks + ", so that the CPU reference runs this");
 }
 
 }  // namespace
@@ -55,10 +61,6 @@ gpu::DeviceOptions device_options(const Options& o) {
 }
 
 std::unique_ptr<gpu::Device> open_device(const Options& o) {
-  if (o.device == "native")
-    throw Error(Exit::no_device,
-                "--device native: this version has no native backend; use --device cpu for the "
-                "reference, or a device of `weft devices`");
   gpu::set_quiet(o.quiet);
   gpu::set_shader_dir(o.shaders);
   return std::make_unique<gpu::Device>(device_options(o));
@@ -68,8 +70,11 @@ std::string device_label(const gpu::DeviceInfo& info) { return info.label(); }
 
 Machine start(const Options& o, const Setup& setup, double run_s) {
   Machine machine;
-  if (o.on_cpu()) {
-    machine.simulation = make_cpu_simulation(setup.model, *setup.solver, setup.scene().solver.precision);
+  const std::string& precision = setup.scene().solver.precision;
+  if (!o.on_vulkan()) {
+    machine.simulation = o.on_cpu() ? make_cpu_simulation(setup.model, *setup.solver, precision)
+                                    : make_native_simulation(setup.model, *setup.solver, precision);
+    if (o.on_native()) note_what_native_lacks(o, setup);
     machine.device_label = machine.simulation->device_name();
     return machine;
   }

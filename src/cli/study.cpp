@@ -106,8 +106,8 @@ Exit run_study(const Options& o) {
   const std::filesystem::path folder = make_out_folder(o);
   sweep.records = folder / "points";
   std::unique_ptr<gpu::Device> device;
-  if (!o.on_cpu()) device = open_device(o);
-  const study::Bench bench = study_bench(device.get());
+  if (o.on_vulkan()) device = open_device(o);
+  const study::Bench bench = study_bench(o, device.get());
   stop_between_frames();
   StudyWatch watch(o, scene.title);
   study::Study study;

@@ -1,8 +1,11 @@
 // Notes are for --verbose; the bar moves from point to point.
 #include "cli/study_watch.h"
 
+#include <fmt/format.h>
+
 #include "cli/interrupt.h"
 #include "cli/setup.h"
+#include "native/features.h"
 
 namespace weft::cli {
 
@@ -18,7 +21,9 @@ study::Watch StudyWatch::watch() {
               }};
 }
 
-study::Bench study_bench(gpu::Device* device) {
+study::Bench study_bench(const Options& o, gpu::Device* device) {
+  if (o.on_native())
+    return {.label = fmt::format("native ({})", native::find_kernels().name), .native = true};
   if (device == nullptr) return {.device = nullptr, .label = "CPU reference"};
   return {.device = device,
           .label = device_label(device->info()),

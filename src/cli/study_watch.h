@@ -23,7 +23,7 @@ class StudyWatch {
   std::unique_ptr<Progress> progress_;
 };
 
-/// Where settings run; null: on the CPU reference.
-study::Bench study_bench(gpu::Device* device);
+/// Where settings run: on the device, or without one on native or the reference, as the options say.
+study::Bench study_bench(const Options&, gpu::Device* device);
 
 }  // namespace weft::cli

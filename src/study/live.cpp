@@ -41,7 +41,7 @@ LiveError::LiveError(const Bench& bench, const Model& model, const Setting& sett
       model_(with_setting(model, {setting.solver, setting.precision, substeps_})) {
   const Solver& solver = find_solver(setting.solver);
   if (bench.device == nullptr) {
-    copy_ = make_cpu_simulation(model_, solver, setting.precision);
+    copy_ = bench.on_host(model_, solver, setting.precision);
     return;
   }
   auto on_gpu =

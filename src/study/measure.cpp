@@ -14,6 +14,7 @@
 #include "model/measures.h"
 #include "plan/plan.h"
 #include "sim/gpu_simulation.h"
+#include "sim/native_simulation.h"
 
 namespace weft::study {
 namespace {
@@ -30,7 +31,7 @@ class Run {
   Run(const Bench& bench, const Model& model, const Setting& setting) : model_(with_setting(model, setting)) {
     const Solver& solver = find_solver(setting.solver);
     if (bench.device == nullptr) {
-      simulation_ = make_cpu_simulation(model_, solver, setting.precision);
+      simulation_ = bench.on_host(model_, solver, setting.precision);
       return;
     }
     auto on_gpu =
@@ -211,6 +212,12 @@ void time_further_runs(Run& run, const State& start, double time_s, const Measur
 }  // namespace
 
 std::span<const std::string_view> precisions() { return kPrecisions; }
+
+std::unique_ptr<Simulation> Bench::on_host(const Model& model, const Solver& solver,
+                                           const std::string& precision) const {
+  return native ? make_native_simulation(model, solver, precision)
+                : make_cpu_simulation(model, solver, precision);
+}
 
 std::string unavailable(const Bench& bench, const Solver& solver, std::string_view precision) {
   if (precision == "f32k" && !has_compensated(solver)) return "has no form with compensated positions";

@@ -6,16 +6,20 @@
 
 #include "gpu/device.h"
 #include "sim/gpu_pipelines.h"
+#include "sim/simulation.h"
 #include "study/point.h"
 #include "study/reference.h"
 
 namespace weft::study {
 
-/// Where settings run: a Vulkan device, or the CPU reference when there is none.
+/// Where settings run: a Vulkan device; where there is none the CPU reference, or native.
 struct Bench {
   gpu::Device* device = nullptr;
   std::string label;                                  ///< as summaries name it; software devices say so
   std::shared_ptr<GpuPipelines> pipelines = nullptr;  ///< shared by all runs on the device
+  bool native = false;  ///< without a device: the CPU's vector units for what they run
+  /// A simulation without a device.
+  std::unique_ptr<Simulation> on_host(const Model&, const Solver&, const std::string& precision) const;
 };
 
 struct MeasureOptions {

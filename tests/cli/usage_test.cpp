@@ -174,7 +174,6 @@ TEST(Usage, AnUnknownDeviceIsExitThreeAndNamesThoseThereAre) {
   NEEDS_VULKAN();
   expect_refused({"simulate", "1", "--device", "no such device"}, {"no such device", "0"}, 3);
   expect_refused({"simulate", "1", "--device", "97"}, {"97"}, 3);
-  expect_refused({"simulate", "1", "--device", "native"}, {"--device cpu"}, 3);
 }
 
 // The switch lets every device lack float64, so that none can be named.

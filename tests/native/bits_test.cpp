@@ -1,0 +1,165 @@
+// The vector kernels end in the bits of the float reference: every scene, every effect, every width that this
+// machine has, any number of threads.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "native/features.h"
+#include "scene/reader.h"
+#include "sim/native_simulation.h"
+#include "sim/native_validate.h"
+#include "solvers/solver.h"
+
+namespace weft {
+namespace {
+
+Model model_of(const std::string& scene, std::vector<std::string> set) {
+  return build_model(load_scene(find_scene(scene), {std::move(set)}).scene);
+}
+
+/// Frames of 30 substeps, the last one cut to 7.
+State run(Simulation& simulation, std::uint32_t frames) {
+  const double frame_s = 30.0 / 60.0 / simulation.plan().substeps;
+  for (std::uint32_t f = 0; f < frames; ++f) simulation.advance(frame_s, 30);
+  simulation.advance(frame_s * 7 / 30, 7);
+  return simulation.read();
+}
+
+State reference(const Model& model, std::uint32_t frames) {
+  return run(*make_cpu_simulation(model, find_solver("leapfrog"), "f32"), frames);
+}
+
+State vectorised(const Model& model, std::uint32_t frames, const native::EngineOptions& options) {
+  return run(*make_native_simulation(model, find_solver("leapfrog"), "f32", options), frames);
+}
+
+/// Names the first particle that differs; −0 and +0 agree.
+void expect_same(const State& got, const State& expected) {
+  ASSERT_EQ(got.position.size(), expected.position.size());
+  for (std::size_t p = 0; p < got.position.size(); ++p) {
+    ASSERT_EQ(got.position[p], expected.position[p]) << "position of particle " << p;
+    ASSERT_EQ(got.velocity[p], expected.velocity[p]) << "velocity of particle " << p;
+  }
+}
+
+TEST(NativeBits, SixScenesAtEveryWidthEqualTheReference) {
+  for (const char* scene : {"1", "2", "3", "4", "5", "6"}) {
+    const Model model = model_of(scene, {"cloth.resolution=37"});
+    const State expected = reference(model, 6);
+    for (const native::Kernels* kernels : native::kernels_here()) {
+      SCOPED_TRACE(fmt::format("scene {}, {}", scene, kernels->name));
+      expect_same(vectorised(model, 6, {.threads = 1, .vector = kernels->name}), expected);
+    }
+  }
+}
+
+TEST(NativeBits, AnyNumberOfThreadsEqualsTheReference) {
+  const Model model = model_of("5", {"cloth.resolution=61", "spheres.0.center=[0,0.9,0]"});
+  const State expected = reference(model, 4);
+  for (const std::uint32_t threads : {1u, 2u, 3u, 5u, 8u, 15u}) {
+    SCOPED_TRACE(fmt::format("{} threads", threads));
+    expect_same(vectorised(model, 4, {.threads = threads, .vector = {}}), expected);
+  }
+}
+
+/// Every switch on and off: what a variant leaves out must be nothing.
+TEST(NativeBits, EveryEffectByItselfEqualsTheReference) {
+  const std::vector<std::vector<std::string>> variants{
+      {"material.damping=0"},
+      {"material.flex=0", "material.bend=0"},
+      {"material.flex=0", "material.bend=1e-4"},
+      {"material.shear=0"},
+      {"material.shear=0", "material.flex=0", "material.bend=0", "material.damping=0"},
+      {"air.drag=0.3", "wind.velocity=[2,0,3]", "wind.gust=0.5", "wind.period=0.1"},
+      {"air.drag=0.3"},
+      {"gravity.acceleration=[0,0,0]"},
+      {"floor.height=0.65", "floor.friction=0.4"},
+      {"cloth.height=0.13"},
+      {"cloth.resolution=16"},
+      {"cloth.resolution=2"},
+      {"cloth.resolution=3"}};
+  for (const auto& set : variants) {
+    std::vector<std::string> all{"cloth.resolution=33", "cloth.imperfection=0.02"};
+    all.insert(all.end(), set.begin(), set.end());
+    SCOPED_TRACE(all.back());
+    const Model model = model_of("1", all);
+    const State expected = reference(model, 4);
+    for (const native::Kernels* kernels : native::kernels_here()) {
+      SCOPED_TRACE(kernels->name);
+      expect_same(vectorised(model, 4, {.threads = 2, .vector = kernels->name}), expected);
+    }
+  }
+}
+
+/// Spheres that hit from the side at 20 m/s, faster than a cell a substep: the swept branch too.
+TEST(NativeBits, FastSpheresEqualTheReference) {
+  const Model model = model_of("5", {"cloth.resolution=41", "spheres.0.center=[0,0.5,0]",
+                                     "spheres.0.velocity=[3,20,1]", "spheres.0.radius=0.2"});
+  const State expected = reference(model, 12);
+  const State start = start_state(model);
+  double moved_m = 0;
+  for (std::size_t p = 0; p < start.position.size(); ++p)
+    moved_m = std::max(moved_m, expected.position[p].y - start.position[p].y);
+  ASSERT_GT(moved_m, 0.02) << "the sphere never reached the cloth";
+  for (const native::Kernels* kernels : native::kernels_here()) {
+    SCOPED_TRACE(kernels->name);
+    expect_same(vectorised(model, 12, {.threads = 3, .vector = kernels->name}), expected);
+  }
+}
+
+/// Every probe state of `validate`, among them one in contact with everything; positions, velocities,
+/// normals.
+TEST(NativeBits, ValidateFindsNoDifference) {
+  for (const char* scene : {"1", "5"}) {
+    const Model model = model_of(scene, {"cloth.resolution=29"});
+    const ValidationReport report = validate_native(model, find_solver("leapfrog"));
+    // states × kernels × {1, 3 threads} × {position, velocity, normal}
+    const std::size_t states = model.scene.spheres.empty() && !model.scene.floor ? 3 : 4;
+    EXPECT_EQ(report.rows.size(), states * native::kernels_here().size() * 2 * 3);
+    for (const ValidationRow& row : report.rows)
+      EXPECT_TRUE(row.ok) << row.check << ", " << row.state << ", " << row.buffer << ": " << row.max_abs;
+  }
+}
+
+TEST(NativeChoice, WhatNativeLacksRunsOnTheReferenceAndSaysSo) {
+  const Model model = model_of("1", {"cloth.resolution=9"});
+  EXPECT_EQ(native_lacks(model, find_solver("leapfrog"), "f32"), "");
+  EXPECT_NE(native_lacks(model, find_solver("leapfrog"), "f64"), "");
+  EXPECT_NE(native_lacks(model, find_solver("rk4"), "f32"), "");
+  const Model folded = model_of("1", {"cloth.resolution=9", "self_collision.thickness=0.01"});
+  EXPECT_NE(native_lacks(folded, find_solver("leapfrog"), "f32"), "");
+  const auto simulation = make_native_simulation(model, find_solver("rk4"), "f32");
+  EXPECT_EQ(simulation->device_name(), "CPU reference (f32)");
+}
+
+TEST(NativeChoice, AnUnknownWidthIsRefusedWithThoseThereAre) {
+  const Model model = model_of("1", {"cloth.resolution=9"});
+  try {
+    make_native_simulation(model, find_solver("leapfrog"), "f32", {.threads = 1, .vector = "AVX-4096"});
+    FAIL() << "AVX-4096 was accepted";
+  } catch (const Error& refusal) {
+    EXPECT_EQ(refusal.code(), Exit::usage);
+    EXPECT_NE(std::string(refusal.what()).find("plain"), std::string::npos);
+  }
+}
+
+/// A trial never asks for more substeps than are left, and ends with one of its candidates.
+TEST(NativeChoice, TheTrialKeepsTheFastestNumberOfThreads) {
+  native::ThreadChoice choice(4, 1'000'000);
+  for (int turn = 0; turn < 100; ++turn) {
+    const native::Turn next = choice.next(7);
+    ASSERT_LE(next.substeps, 7u);
+    ASSERT_GE(next.substeps, 1u);
+    ASSERT_LE(next.threads, 4u);
+    const double substep_s = next.threads == 3 ? 1e-4 : 2e-4;  // three are the fastest here
+    choice.report(next, substep_s * next.substeps);
+  }
+  EXPECT_EQ(choice.best(), 3u);
+  EXPECT_EQ(choice.next(50).threads, 3u);
+  EXPECT_EQ(choice.next(50).substeps, 50u);
+  native::ThreadChoice small(4, 48 * 48);
+  EXPECT_EQ(small.next(50).threads, 1u);
+}
+
+}  // namespace
+}  // namespace weft
