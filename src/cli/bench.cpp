@@ -1,6 +1,7 @@
 // `weft bench`: GPU time a particle·substep at several sizes, and the share of the copy bandwidth it reaches.
 #include "sim/bench.h"
 
+#include "cli/bench_backends.h"
 #include "cli/command.h"
 #include "cli/setup.h"
 #include "cli/table.h"
@@ -63,9 +64,11 @@ std::string csv_of(const std::vector<BenchReport>& reports) {
 
 Exit run_bench(const Options& o) {
   if (o.on_cpu())
-    throw Error(
-        Exit::usage,
-        "bench: --device is cpu; it must be a Vulkan device, whose timestamps are read; see `weft devices`");
+    throw Error(Exit::usage,
+                "bench: --device is cpu; it must be a Vulkan device, whose timestamps are read, or native, "
+                "which is timed "
+                "beside all others; see `weft devices`");
+  if (o.on_native()) return run_backend_bench(o);
   std::vector<Scene> scenes;
   for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
     scenes.push_back(set_up(o, name).model.scene);
@@ -90,7 +93,8 @@ Exit run_bench(const Options& o) {
 const Command bench_command{"bench", "times the passes at 64 to 1024 particles a side (or at --resolution)",
                             "  weft bench\n"
                             "  weft bench 1 4 --resolution 256\n"
-                            "  weft bench 1 --format json > bench.json",
+                            "  weft bench 1 --format json > bench.json\n"
+                            "  weft bench 1 --device native      (all backends side by side)",
                             add_scenes, run_bench};
 
 }  // namespace weft::cli

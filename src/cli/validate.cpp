@@ -6,7 +6,9 @@
 #include "cli/progress.h"
 #include "cli/setup.h"
 #include "cli/table.h"
+#include "cli/study_watch.h"
 #include "core/text.h"
+#include "sim/native_validate.h"
 #include "sim/perturb.h"
 
 namespace weft::cli {
@@ -89,27 +91,29 @@ Exit run_validate(const Options& o) {
   if (o.on_cpu())
     throw Error(
         Exit::usage,
-        "validate: --device is cpu; it must be a Vulkan device (the CPU reference is what it is compared "
-        "with); see `weft devices`");
+        "validate: --device is cpu; it must be a Vulkan device or native (the CPU reference is what it is "
+        "compared with); see `weft devices`");
   const std::vector<std::string> names = scenes_asked_for(o);
   std::vector<Setup> setups;
   for (const std::string& name : names)
     setups.push_back(
         set_up(with_chosen_setting(o, name, [&](const Scene&) { return o.time_or_default_s(); }), name));
   require_effect(o, setups);
-  const std::unique_ptr<gpu::Device> device = open_device(o);
+  const std::unique_ptr<gpu::Device> device = o.on_native() ? nullptr : open_device(o);
   const ValidationOptions options{.perturb = o.perturb};
   std::vector<ValidationReport> reports;
   bool ok = true;
   {
     Progress progress("validating", o.quiet);
     for (const Setup& setup : setups) {
-      reports.push_back(weft::validate(*device, setup.model, *setup.solver, options));
+      reports.push_back(device ? weft::validate(*device, setup.model, *setup.solver, options)
+                               : validate_native(setup.model, *setup.solver, options));
       ok = ok && reports.back().ok();
       progress.show(reports.size(), setups.size());
     }
   }
-  print_reports(o, reports, device_label(device->info()), ok);
+  const std::string label = device ? device_label(device->info()) : study_bench(o, nullptr).label;
+  print_reports(o, reports, label, ok);
   report_validation(device.get());
   return ok ? Exit::ok : Exit::tolerance;
 }
@@ -132,11 +136,20 @@ void add_validate_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
+<<<<<<< HEAD
 const Command validate_command{"validate",
                                "compares the device with the CPU reference; exit 5 when over tolerance",
                                "  weft validate\n"
                                "  weft validate 1 5 --format csv\n"
                                "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
                                add_validate_options, run_validate};
+=======
+const Command validate{"validate", "compares the device with the CPU reference; exit 5 when over tolerance",
+                       "  weft validate\n"
+                       "  weft validate --device native\n"
+                       "  weft validate 1 5 --format csv\n"
+                       "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
+                       add_validate_options, run_validate};
+>>>>>>> 348394e (Validate and bench native beside the reference and the Vulkan device)
 
 }  // namespace weft::cli

@@ -84,7 +84,12 @@ class NativeSimulation final : public Simulation {
   }
 
   std::optional<SelfCollisionReport> self_collision() override { return std::nullopt; }
-  std::uint64_t bytes_allocated() const override { return engine_.bytes(); }
+  std::uint64_t bytes_allocated() const override {
+    std::uint64_t bytes = engine_.bytes();
+    for (const auto& buffer : buffers_.vec4) bytes += buffer.size() * sizeof(buffer[0]);
+    for (const auto& buffer : buffers_.words) bytes += buffer.size() * sizeof(buffer[0]);
+    return bytes;
+  }
 
  private:
   std::span<const Constant> constants_of_integrate() const {

@@ -1,0 +1,61 @@
+// Every backend's wall time as one table; the Vulkan device takes part where there is one.
+#include "cli/bench_backends.h"
+
+#include "cli/setup.h"
+#include "cli/table.h"
+#include "sim/backend_bench.h"
+
+namespace weft::cli {
+namespace {
+
+Table backend_table(const BackendBenchReport& report) {
+  Table table{{"scene", "resolution", "backend", "substeps", "ns_per_particle_substep", "ns_median",
+               "frame_ms", "divider_share"},
+              {}};
+  for (const BackendRow& row : report.rows)
+    table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.backend, row.substeps,
+                          row.ns_best, row.ns_median, row.frame_ms, row.divider_share});
+  return table;
+}
+
+/// The device that the comparison is with, or none.
+std::unique_ptr<gpu::Device> device_beside(const Options& o) {
+  Options vulkan = o;
+  vulkan.device.clear();
+  try {
+    return open_device(vulkan);
+  } catch (const Error& failure) {
+    if (failure.code() != Exit::no_device) throw;
+    note(o, "no Vulkan device can be used; native is compared with the reference alone");
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+Exit run_backend_bench(const Options& o) {
+  std::vector<Scene> wanted;
+  for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
+    wanted.push_back(set_up(o, name).model.scene);
+  const std::unique_ptr<gpu::Device> device = device_beside(o);
+  BackendBenchOptions options;
+  if (o.resolution) options.resolutions = {*o.resolution};
+  Table all;
+  for (const Scene& scene : wanted) {
+    note(o, fmt::format("timing {}", scene.title.empty() ? scene.source : scene.title));
+    const BackendBenchReport report = bench_backends(device.get(), scene, options);
+    Table one = backend_table(report);
+    if (o.format == Format::human)
+      print_result(fmt::format(
+          "{} · {} · {} cores · best and median of {} turns · root and division {:.3g} ns a float\n{}",
+          report.scene, device ? device_label(device->info()) : "no Vulkan device", report.cores,
+          report.repetitions, report.root_and_division_ns, to_text(one, Format::human)));
+    all.columns = one.columns;
+    for (auto& row : one.rows) all.rows.push_back(std::move(row));
+  }
+  if (o.format != Format::human) print_result(to_text(all, o.format));
+  report_validation(device.get());
+  return Exit::ok;
+}
+
+}  // namespace weft::cli
