@@ -5,8 +5,8 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/setup.h"
-#include "cli/table.h"
 #include "cli/study_watch.h"
+#include "cli/table.h"
 #include "core/text.h"
 #include "sim/native_validate.h"
 #include "sim/perturb.h"
@@ -136,20 +136,12 @@ void add_validate_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-<<<<<<< HEAD
 const Command validate_command{"validate",
                                "compares the device with the CPU reference; exit 5 when over tolerance",
                                "  weft validate\n"
+                               "  weft validate --device native\n"
                                "  weft validate 1 5 --format csv\n"
                                "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
                                add_validate_options, run_validate};
-=======
-const Command validate{"validate", "compares the device with the CPU reference; exit 5 when over tolerance",
-                       "  weft validate\n"
-                       "  weft validate --device native\n"
-                       "  weft validate 1 5 --format csv\n"
-                       "  weft validate 1 --perturb integrate.gravity     (must exit 5)",
-                       add_validate_options, run_validate};
->>>>>>> 348394e (Validate and bench native beside the reference and the Vulkan device)
 
 }  // namespace weft::cli

