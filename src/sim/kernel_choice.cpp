@@ -107,14 +107,13 @@ bool is_candidate(const gpu::Device& device, const Plan& plan, const Kernel& ker
 
 KernelChoice automatic(gpu::Device& device, const Model& model, const Plan& plan,
                        std::shared_ptr<GpuPipelines> pipelines, const std::filesystem::path& file,
-                       KernelTrial trial) {
+                       bool may_try) {
   const std::vector<KernelCandidate> candidates = kernel_candidates(device, plan);
   if (candidates.size() == 1) return {candidates[0].kernel, "default", {}, {}};
   const std::string key = kernel_memory_key(plan);
   const auto remembered = file.empty() ? std::nullopt : remembered_kernel(file, key);
   if (remembered && is_candidate(device, plan, *remembered)) return {*remembered, "remembered", {}, {}};
-  if (trial == KernelTrial::never) return {responsive_kernel(device, plan), "default", {}, {}};
-  if (trial == KernelTrial::when_named) return {untried_kernel(device, plan), "default", {}, {}};
+  if (!may_try) return {untried_kernel(device, plan), "default", {}, {}};
   require_fits(device, model, plan);
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   KernelChoice choice = tried(device, model, plan, std::move(pipelines));
@@ -136,8 +135,8 @@ KernelChoice choose_kernel(gpu::Device& device, const Model& model, const Plan& 
   if (const char* wish = std::getenv("WEFT_KERNEL"); name.empty() && wish != nullptr) name = wish;
   if (!name.empty() && name != "auto") return {named_kernel(device, plan, name), "forced", {}, {}};
   if (file.empty()) file = kernel_memory_file(device);
-  if (trial == KernelTrial::when_named && !name.empty()) trial = KernelTrial::allowed;
-  return automatic(device, model, plan, std::move(pipelines), file, trial);
+  const bool may_try = trial == KernelTrial::allowed || (trial == KernelTrial::when_named && !name.empty());
+  return automatic(device, model, plan, std::move(pipelines), file, may_try);
 }
 
 std::filesystem::path kernel_memory_file(gpu::Device& device) {

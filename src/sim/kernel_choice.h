@@ -35,8 +35,7 @@ double expected_work_s(const gpu::Device&, const Plan&, double substeps);
 
 /// @param name  one of kernel_names(); empty: the environment's WEFT_KERNEL, else "auto". All kernels end in
 ///              the same bits, so the choice changes no result
-/// @param trial  where none is made, what is not remembered is untried_kernel(), with `never`
-///               responsive_kernel()
+/// @param trial  where none is made, what is not remembered is untried_kernel()
 /// "auto" takes what an earlier trial of this device, driver, size and set of constants found, kept beside
 /// the pipeline cache; without one it times the candidates on buffers of its own and keeps the result. The
 /// trial starts no candidate after half a second, so that slow compilers do not hold up a start.

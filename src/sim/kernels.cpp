@@ -136,16 +136,10 @@ std::vector<KernelCandidate> kernel_candidates(const gpu::Device& device, const 
 }
 
 Kernel untried_kernel(const gpu::Device& device, const Plan& plan) {
-  if (!device.info().software) return direct_kernel(device, plan);
-  const std::vector<KernelCandidate> candidates = kernel_candidates(device, plan);
-  return std::ranges::find(candidates, "", &KernelCandidate::unfit)->kernel;
-}
-
-Kernel responsive_kernel(const gpu::Device& device, const Plan& plan) {
   if (device.info().software)
     for (const KernelCandidate& candidate : kernel_candidates(device, plan))
       if (candidate.kernel.kind == KernelKind::texel && candidate.unfit.empty()) return candidate.kernel;
-  return untried_kernel(device, plan);
+  return direct_kernel(device, plan);
 }
 
 std::vector<std::string> fitting_kernel_names(const gpu::Device& device, const Plan& plan) {

@@ -52,13 +52,9 @@ std::vector<std::string> fitting_kernel_names(const gpu::Device&, const Plan&);
 /// The kernel that needs nothing of the device.
 Kernel direct_kernel(const gpu::Device&, const Plan&);
 
-/// What runs where nothing is asked for and no trial was made: the most promising one on a software device,
-/// where it is known to be several times as fast as the direct one, which runs elsewhere.
+/// What runs where nothing is asked for and no trial was made: on a software device `texel`, which its driver
+/// compiles in half a second, where faster kernels take five (docs/performance.md); elsewhere the direct one.
 Kernel untried_kernel(const gpu::Device&, const Plan&);
-
-/// What runs where nothing may stall and nothing is remembered: a software driver compiles `texel` in half a
-/// second, and untried_kernel() in five (docs/performance.md).
-Kernel responsive_kernel(const gpu::Device&, const Plan&);
 
 /// The first candidate of that kind.
 /// @throws Error(Exit::usage) for an unknown name, or a kernel that does not fit: why, and what does
