@@ -21,11 +21,8 @@ const Pass cell_count{
     .name = "cell_count",
     .about = "self-collision: particles in each bucket of the grid",
     .domain = collision_domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
     .interval = contact_interval,
     .groups_word = shared::kListGroups,
 };

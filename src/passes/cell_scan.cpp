@@ -25,11 +25,8 @@ const Pass cell_scan{
     .name = "cell_scan",
     .about = "self-collision: prefix sum, from counts to the ends of the buckets",
     .domain = domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
     .interval = contact_interval,
     .groups_word = shared::kScanGroups,
 };

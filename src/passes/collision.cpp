@@ -114,7 +114,4 @@ Range collision_domain(const Model& model) {
   return {.x = model.grid.nx, .y = model.grid.ny};
 }
 
-Constants no_pass_constants(const Model&) { return {}; }
-std::uint64_t no_pass_springs(const Model&) { return 0; }
-
 }  // namespace weft

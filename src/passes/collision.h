@@ -41,8 +41,6 @@ shared::CollisionOf<T> make_collision(const Model& model);
 
 /// Whole cloth, or nothing when the scene has no [self_collision].
 Range collision_domain(const Model& model);
-Constants no_pass_constants(const Model&);
-std::uint64_t no_pass_springs(const Model&);
 
 /// A pair's limit as the passes read it.
 template <class T>

@@ -36,15 +36,9 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
 const Pass judge{
     .name = "judge",
     .about = "divergence: is the state still sound?",
-    .domain =
-        [](const Model&) {
-          return Range{1, 1, 0, 0};
-        },
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = [](const Model&) { return std::uint64_t{0}; },
+    .domain = [](const Model&) { return Range{.x = 1, .y = 1}; },
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
 };
 
 }  // namespace weft

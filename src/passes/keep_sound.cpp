@@ -16,15 +16,9 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
 const Pass keep_sound{
     .name = "keep_sound",
     .about = "divergence: keeps the state while it is sound",
-    .domain =
-        [](const Model& m) {
-          return Range{m.grid.nx, m.grid.ny, 0, 0};
-        },
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = [](const Model&) { return std::uint64_t{0}; },
+    .domain = whole_cloth,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
 };
 
 }  // namespace weft

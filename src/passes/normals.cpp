@@ -60,15 +60,9 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 const Pass normals{
     .name = "normals",
     .about = "vertex normals: the adjacent triangles' normals, averaged",
-    .domain =
-        [](const Model& m) {
-          return Range{m.grid.nx, m.grid.ny, 0, 0};
-        },
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = [](const Model&) { return std::uint64_t{0}; },
+    .domain = whole_cloth,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
 };
 
 }  // namespace weft

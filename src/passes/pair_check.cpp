@@ -29,11 +29,8 @@ const Pass pair_check{
     .name = "pair_check",
     .about = "self-collision: do the pair lists still hold? empties the grid",
     .domain = collision_domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
     .interval = contact_interval,
 };
 

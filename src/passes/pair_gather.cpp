@@ -60,11 +60,8 @@ const Pass pair_gather{
     .name = "pair_gather",
     .about = "self-collision: lists of the pairs within limit and skin",
     .domain = collision_domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
     .interval = contact_interval,
     .groups_word = shared::kListGroups,
 };

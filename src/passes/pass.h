@@ -47,12 +47,16 @@ struct MirrorContext {
   double speed_allowed_m_s = 0.0;  ///< at the frame's end, of SpeedBudget; 0: any
 };
 
+/// The domain of a pass that has one invocation a particle.
+inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }
+
 struct Pass {
   std::string_view name;
   std::string_view about;
   Range (*domain)(const Model&);
-  Constants (*constants)(const Model&);
-  std::uint64_t (*spring_evaluations)(const Model&);  ///< of one dispatch
+  Constants (*constants)(const Model&) = [](const Model&) { return Constants{}; };
+  /// Of one dispatch.
+  std::uint64_t (*spring_evaluations)(const Model&) = [](const Model&) { return std::uint64_t{0}; };
   void (*mirror_f32)(const MirrorContext&, HostBuffers<float>&);
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current

@@ -23,8 +23,6 @@ const Pass pin_place{
     .name = "pin_place",
     .about = "puts what moving pins hold where these are by now",
     .domain = moved_pins_range,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
 };

@@ -21,8 +21,6 @@ const Pass present{
     .name = "present",
     .about = "positions and normals in float, as they are drawn",
     .domain = whole_cloth,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
 };

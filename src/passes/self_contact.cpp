@@ -89,8 +89,6 @@ const Pass self_contact{
     .name = "self_contact",
     .about = "self-collision: pushes pairs apart to their limit and takes their approach",
     .domain = collision_domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .swaps_state = true,

@@ -55,8 +55,6 @@ const Pass strain_limit{
     .name = "strain_limit",
     .about = "pulls springs of one colour back to the strain limit",
     .domain = whole_cloth,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .item_domain = item_domain,

@@ -161,9 +161,7 @@ class Compensation {
   std::size_t count_;
 };
 
-/// What every pass over the whole cloth declares.
-inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }
+/// What a pass that evaluates the cloth's springs once a dispatch declares.
 inline std::uint64_t every_spring(const Model& m) { return m.spring_count; }
-inline std::uint64_t no_spring(const Model&) { return 0; }
 
 }  // namespace weft

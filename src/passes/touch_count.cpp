@@ -36,11 +36,8 @@ const Pass touch_count{
     .name = "touch_count",
     .about = "self-collision: pairs nearer than their limit",
     .domain = collision_domain,
-    .constants = no_pass_constants,
-    .spring_evaluations = no_pass_springs,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
     .interval = contact_interval,
 };
 

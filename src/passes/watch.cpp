@@ -68,11 +68,8 @@ const Pass watch{
     .name = "watch",
     .about = "divergence: the fastest particle and the kinetic energy, piece by piece",
     .domain = domain,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = [](const Model&) { return std::uint64_t{0}; },
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .swaps_state = false,
 };
 
 }  // namespace weft

@@ -74,8 +74,6 @@ const Pass xpbd_bend{
     .name = "xpbd_bend",
     .about = "straightens the bending triples of one colour",
     .domain = whole_cloth,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .item_domain = item_domain,

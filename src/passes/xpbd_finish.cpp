@@ -41,7 +41,6 @@ const Pass xpbd_finish{
     .about = "velocities from what the particles have moved, and contact",
     .domain = whole_cloth,
     .constants = constants,
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .swaps_state = true,

@@ -20,8 +20,6 @@ const Pass xpbd_pins{
     .name = "xpbd_pins",
     .about = "how far moving pins take what they hold",
     .domain = moved_pins_range,
-    .constants = [](const Model&) { return Constants{}; },
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
 };

@@ -35,7 +35,6 @@ const Pass xpbd_predict{
     .about = "gravity and air: how far each particle would move by itself",
     .domain = whole_cloth,
     .constants = constants,
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
 };

@@ -103,7 +103,6 @@ const Pass xpbd_spring{
     .about = "pulls the springs of one colour towards their rest length",
     .domain = whole_cloth,
     .constants = constants,
-    .spring_evaluations = no_spring,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .item_domain = spring_colour_range,
