@@ -9,58 +9,62 @@ namespace {
 // The same numbers as in shaders/draw/ball.glsl, which makes the vertices.
 constexpr std::uint32_t kBallSegments = 64, kBallRings = 32;
 
+/// Every stride-th of `count` lines of particles, and the last.
+std::vector<std::uint32_t> kept(std::uint32_t count, std::uint32_t stride) {
+  std::vector<std::uint32_t> lines;
+  for (std::uint32_t k = 0; k + 1 < count; k += stride) lines.push_back(k);
+  lines.push_back(count - 1);
+  return lines;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> cloth_triangles(const Grid& grid) {
+std::vector<std::uint32_t> cloth_triangles(const Grid& grid, std::uint32_t stride) {
   std::vector<std::uint32_t> indices;
-  indices.reserve(std::size_t{6} * (grid.nx - 1) * (grid.ny - 1));
-  for (std::uint32_t j = 0; j + 1 < grid.ny; ++j)
-    for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
-      const std::uint32_t a = grid.index(i, j), right = a + 1, below = a + grid.nx;
-      for (const std::uint32_t index : {a, below, right, right, below, below + 1}) indices.push_back(index);
+  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept(grid.ny, stride);
+  indices.reserve(std::size_t{6} * (columns.size() - 1) * (rows.size() - 1));
+  for (std::size_t j = 0; j + 1 < rows.size(); ++j)
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      const std::uint32_t own = grid.index(columns[i], rows[j]), right = grid.index(columns[i + 1], rows[j]),
+                          below = grid.index(columns[i], rows[j + 1]),
+                          last = grid.index(columns[i + 1], rows[j + 1]);
+      for (const std::uint32_t index : {own, below, right, right, below, last}) indices.push_back(index);
     }
   return indices;
 }
 
-std::vector<std::uint32_t> cloth_triangles_coarse(const Grid& grid, std::uint32_t stride) {
+std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid, std::uint32_t stride) {
+  const std::vector<std::uint32_t> all = cloth_triangles(grid, stride);
   std::vector<std::uint32_t> indices;
-  const auto next = [&](std::uint32_t k, std::uint32_t count) { return std::min(k + stride, count - 1); };
-  for (std::uint32_t j = 0; j + 1 < grid.ny; j = next(j, grid.ny))
-    for (std::uint32_t i = 0; i + 1 < grid.nx; i = next(i, grid.nx)) {
-      const std::uint32_t a = grid.index(i, j), right = grid.index(next(i, grid.nx), j),
-                          below = grid.index(i, next(j, grid.ny)),
-                          last = grid.index(next(i, grid.nx), next(j, grid.ny));
-      for (const std::uint32_t index : {a, below, right, right, below, last}) indices.push_back(index);
-    }
+  indices.reserve(all.size() / 2);
+  for (std::size_t cell = 0; cell < all.size(); cell += 6)
+    indices.insert(indices.end(), all.begin() + static_cast<std::ptrdiff_t>(cell),
+                   all.begin() + static_cast<std::ptrdiff_t>(cell) + 3);
   return indices;
 }
 
-std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid) {
+std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride) {
   std::vector<std::uint32_t> indices;
-  indices.reserve(std::size_t{3} * (grid.nx - 1) * (grid.ny - 1));
-  for (std::uint32_t j = 0; j + 1 < grid.ny; ++j)
-    for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
-      const std::uint32_t a = grid.index(i, j);
-      for (const std::uint32_t index : {a, a + grid.nx, a + 1}) indices.push_back(index);
-    }
-  return indices;
-}
-
-std::vector<std::uint32_t> cloth_lines(const Grid& grid) {
-  std::vector<std::uint32_t> indices;
-  indices.reserve(std::size_t{6} * grid.count());
+  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept(grid.ny, stride);
+  indices.reserve(std::size_t{6} * columns.size() * rows.size());
   const auto line = [&](std::uint32_t a, std::uint32_t b) {
     indices.push_back(a);
     indices.push_back(b);
   };
-  for (std::uint32_t j = 0; j < grid.ny; ++j)
-    for (std::uint32_t i = 0; i < grid.nx; ++i) {
-      const std::uint32_t own = grid.index(i, j);
-      if (i + 1 < grid.nx) line(own, own + 1);
-      if (j + 1 < grid.ny) line(own, own + grid.nx);
-      if (i + 1 < grid.nx && j + 1 < grid.ny) line(own + 1, own + grid.nx);
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const bool has_right = i + 1 < columns.size(), has_below = j + 1 < rows.size();
+      const std::uint32_t own = grid.index(columns[i], rows[j]);
+      if (has_right) line(own, grid.index(columns[i + 1], rows[j]));
+      if (has_below) line(own, grid.index(columns[i], rows[j + 1]));
+      if (has_right && has_below)
+        line(grid.index(columns[i + 1], rows[j]), grid.index(columns[i], rows[j + 1]));
     }
   return indices;
+}
+
+std::uint32_t stride_for(const Grid& grid, std::uint32_t cells) {
+  return std::max(1u, (grid.nx - 1 + cells - 1) / cells);
 }
 
 std::vector<std::uint32_t> ball_triangles() {

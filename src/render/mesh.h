@@ -7,18 +7,21 @@
 
 namespace weft {
 
+// The lists of the cloth take every `stride`-th particle along both sides, and the last one, so that the
+// edges stay.
+
 /// Three indices a triangle, counter-clockwise seen from the front. Cell by cell A = (i,j), (i,j+1), (i+1,j)
-/// and B = (i+1,j), (i,j+1), (i+1,j+1); 6·(nx−1)·(ny−1) indices.
-std::vector<std::uint32_t> cloth_triangles(const Grid& grid);
+/// and B = (i+1,j), (i,j+1), (i+1,j+1); 6·(nx−1)·(ny−1) indices with a stride of 1.
+std::vector<std::uint32_t> cloth_triangles(const Grid& grid, std::uint32_t stride = 1);
 
-/// The same over every `stride`-th particle along both sides and the last one, so that the edges stay.
-std::vector<std::uint32_t> cloth_triangles_coarse(const Grid& grid, std::uint32_t stride);
-
-/// The A triangles only: half of them, so that the triangulation shows. 3·(nx−1)·(ny−1) indices.
-std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid);
+/// The A triangles only: half of them, so that the triangulation shows.
+std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid, std::uint32_t stride = 1);
 
 /// Two indices a line: every edge of the triangulation once.
-std::vector<std::uint32_t> cloth_lines(const Grid& grid);
+std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride = 1);
+
+/// The smallest stride with at most that many cells along the width.
+std::uint32_t stride_for(const Grid& grid, std::uint32_t cells);
 
 /// The latitude–longitude sphere of shaders/draw/ball.glsl.
 std::vector<std::uint32_t> ball_triangles();

@@ -130,6 +130,11 @@ DrawCounts Renderer::draw(VkCommandBuffer commands, const DrawTarget& target, co
   WEFT_ASSERT(slot < kDrawSlots);
   counts_ = {};
   slot_ = slot;
+  if (look.stride != listed_stride_) {
+    device_.wait_idle();
+    drop_cloth_lists();
+    listed_stride_ = look.stride;
+  }
   fit_attachments(target.extent);
   if (look.heat) layout_->bind_positions(slot, cloth.position);
   const double aspect = double{1.0} * target.extent.width / target.extent.height;

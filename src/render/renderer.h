@@ -27,8 +27,9 @@ enum class Shading {
 struct Look {
   Shading shading = Shading::smooth;
   bool wireframe = false;
-  bool heat = false;        ///< strain as colour
-  double heat_full = 0.05;  ///< the strain painted in full colour
+  bool heat = false;         ///< strain as colour
+  double heat_full = 0.05;   ///< the strain painted in full colour
+  std::uint32_t stride = 1;  ///< every how manyth particle along each side is drawn, and the last
 };
 
 /// Where a picture goes. The image is a colour attachment of the renderer's format, without multisampling,
@@ -46,6 +47,10 @@ struct DrawCounts {
 
 /// Cells along the width that a software device's shadow shows.
 inline constexpr std::uint32_t kShadowCells = 128;
+
+/// Cells along the width that a window draws of a cloth on a software device: 1024² would take a second a
+/// picture.
+inline constexpr std::uint32_t kPictureCells = 384;
 
 /// 4 on a GPU and 1 on a software device; fewer where the device cannot.
 /// @throws Error(Exit::usage) when `wish` is not 0 (automatic), 1 or 4
@@ -103,6 +108,7 @@ class Renderer {
     std::uint32_t count = 0;
   };
 
+  void drop_cloth_lists();
   static std::string_view kind_name(Kind kind);
   List shadow_list(const Look& look) const;
   DrawPipelineOptions describe(Kind kind) const;
@@ -121,6 +127,7 @@ class Renderer {
   gpu::Device& device_;
   const Model* model_;
   Grid listed_;  ///< what the index lists are of
+  std::uint32_t listed_stride_ = 1;
   VkFormat color_format_;
   VkSampleCountFlagBits samples_;
   Stage stage_;

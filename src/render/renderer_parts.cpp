@@ -1,4 +1,5 @@
 // What a Renderer makes on first use: its pipelines and index buffers.
+#include <algorithm>
 #include <span>
 #include <string>
 
@@ -13,8 +14,13 @@ void Renderer::set_model(const Model& model) {
   stage_.bounds = scene_bounds(model);
   ball_count_ = ball_count(model);
   if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny) return;
-  for (const List list : {kAllTriangles, kHalfTriangles, kShadowMesh, kLines}) lists_[list] = {};
+  drop_cloth_lists();
   listed_ = model.grid;
+}
+
+/// The pictures that use them must be finished.
+void Renderer::drop_cloth_lists() {
+  for (const List list : {kAllTriangles, kHalfTriangles, kShadowMesh, kLines}) lists_[list] = {};
 }
 
 std::string_view Renderer::kind_name(Kind kind) {
@@ -92,13 +98,14 @@ const Renderer::Indices& Renderer::indices(List list) {
   if (made.buffer) return made;
   constexpr std::array<const char*, kListCount> kNames{"cloth triangles", "cloth half triangles",
                                                        "shadow mesh", "cloth lines", "ball triangles"};
+  const Grid& grid = model_->grid;
   const auto generate = [&] {
     switch (list) {
-      case kAllTriangles: return cloth_triangles(model_->grid);
-      case kHalfTriangles: return cloth_half_triangles(model_->grid);
+      case kAllTriangles: return cloth_triangles(grid, listed_stride_);
+      case kHalfTriangles: return cloth_half_triangles(grid, listed_stride_);
       case kShadowMesh:
-        return cloth_triangles_coarse(model_->grid, (model_->grid.nx + kShadowCells - 2) / kShadowCells);
-      case kLines: return cloth_lines(model_->grid);
+        return cloth_triangles(grid, std::max(listed_stride_, stride_for(grid, kShadowCells)));
+      case kLines: return cloth_lines(grid, listed_stride_);
       default: return ball_triangles();
     }
   };

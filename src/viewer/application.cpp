@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "gpu/shader.h"
 #include "render/image.h"
+#include "render/mesh.h"
 #include "viewer/accuracy_panel.h"
 
 namespace weft {
@@ -310,6 +311,8 @@ void Application::paint() {
   const double film_s = seconds(Clock::now() - film_start_);
   const bool screenshot = std::exchange(view_.screenshot, false);
   std::optional<Painted> painted;
+  view_.look.stride =
+      device_.info().software ? stride_for(running_.model().grid, kPictureCells) : std::uint32_t{1};
   // A picture that cannot be drawn is no mistake of a person's: it ends the program with its reason.
   painted = painter_.paint(running_, window_.framebuffer(),
                            {.area = view_.area,

@@ -54,9 +54,9 @@ TEST(Mesh, TrianglesCoverTheSheetOnceAndFaceItsFront) {
 
 TEST(Mesh, ACoarserOneCoversTheSameSheet) {
   const Grid grid = grid_5x4();
-  EXPECT_EQ(cloth_triangles_coarse(grid, 1), cloth_triangles(grid));
+  EXPECT_EQ(cloth_triangles(grid, 1), cloth_triangles(grid));
   for (const std::uint32_t stride : {2u, 3u, 4u, 7u}) {  // 4 × 3 cells: some strides do not divide them
-    const auto triangles = cloth_triangles_coarse(grid, stride);
+    const auto triangles = cloth_triangles(grid, stride);
     const std::uint32_t columns = (4 + stride - 1) / stride, rows = (3 + stride - 1) / stride;
     EXPECT_EQ(triangles.size(), 6u * columns * rows);
     EXPECT_NEAR(area_seen_from_front(triangles, flat(grid)), 0.75, 1e-12) << "stride " << stride;

@@ -80,6 +80,20 @@ TEST_F(RendererTest, FlatShadingDrawsExactlyHalfOfTheTriangles) {
   EXPECT_EQ(wire.counts().cloth_lines, 3 * cells + (model.grid.nx - 1) + (model.grid.ny - 1));
 }
 
+TEST_F(RendererTest, AStrideDrawsEveryThatManythParticleAndTheEdges) {
+  const Model model = build_model(sheet_scene());
+  RenderOptions options = small_picture();
+  OffscreenRenderer whole(device(), model, options);
+  const Picture every = whole.draw(waved(model));
+  options.look.stride = 2;
+  OffscreenRenderer coarse(device(), model, options);
+  const Picture second = coarse.draw(waved(model));
+  const std::uint64_t columns = model.grid.nx / 2,
+                      rows = model.grid.ny / 2;  // n − 1 cells, halved and rounded up
+  EXPECT_EQ(coarse.counts().cloth_triangles, 2 * columns * rows);
+  EXPECT_NE(every.rgba, second.rgba);
+}
+
 /// A small horizontal cloth over a floor, out of the way of what a test looks at.
 Scene floor_scene() {
   Scene scene;
