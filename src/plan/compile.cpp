@@ -113,26 +113,42 @@ void require_precision(const Model& model, const Solver& solver, std::string_vie
               model.scene.source, solver.name, able);
 }
 
-void require_collision(const Model& model, const Solver& solver) {
-  const auto pushes = [](const SolverStep& step) { return step.pass == &self_contact; };
-  if (!model.scene.self_collision || std::ranges::any_of(solver.steps, pushes)) return;
-  throw error(Exit::usage,
-              "{}: [self_collision] with thickness {} m: the solver {} has no passes for self-collision; use "
-              "leapfrog, or remove the section to simulate the cloth without it",
-              model.scene.source, model.scene.self_collision->thickness_m, solver.name);
+/// What a scene may call for and only some solvers have the passes of: listed by one of these passes.
+struct Need {
+  bool (*called_for)(const Model&);
+  const Pass* pass;
+  std::string (*place)(const Model&);  ///< key and value
+  std::string_view cure;
+};
+const Need kNeeds[] = {
+    {[](const Model& m) { return m.scene.self_collision.has_value(); }, &self_contact,
+     [](const Model& m) {
+       return fmt::format("[self_collision] with thickness {} m", m.scene.self_collision->thickness_m);
+     },
+     "remove the section to simulate the cloth without it"},
+    {has_strain_limit, &strain_limit,
+     [](const Model& m) { return fmt::format("material.strain_limit is {}", m.scene.material.strain_limit); },
+     "set it to 0"},
+};
+
+bool lists(const Solver& solver, const Pass* pass) {
+  return std::ranges::any_of(solver.steps, [pass](const SolverStep& step) { return step.pass == pass; });
 }
 
-void require_strain_limit(const Model& model, const Solver& solver) {
-  const auto limits = [](const SolverStep& step) { return step.pass == &strain_limit; };
-  if (!has_strain_limit(model) || std::ranges::any_of(solver.steps, limits)) return;
+const Need* unmet_need(const Model& model, const Solver& solver) {
+  const auto* need = std::ranges::find_if(
+      kNeeds, [&](const Need& n) { return n.called_for(model) && !lists(solver, n.pass); });
+  return need == std::end(kNeeds) ? nullptr : need;
+}
+
+void require_passes(const Model& model, const Solver& solver) {
+  const Need* need = unmet_need(model, solver);
+  if (need == nullptr) return;
   std::string able;
   for (const Solver* other : solvers())
-    if (std::ranges::any_of(other->steps, limits))
-      able += (able.empty() ? "" : ", ") + std::string(other->name);
-  throw error(
-      Exit::usage,
-      "{}: material.strain_limit is {}: the solver {} has no passes for it; use one of {}, or set it to 0",
-      model.scene.source, model.scene.material.strain_limit, solver.name, able);
+    if (lists(*other, need->pass)) able += (able.empty() ? "" : ", ") + std::string(other->name);
+  throw error(Exit::usage, "{}: {}: the solver {} has no passes for it; use one of {}, or {}",
+              model.scene.source, need->place(model), solver.name, able, need->cure);
 }
 
 }  // namespace
@@ -144,10 +160,14 @@ bool has_compensated(const Solver& solver) {
   });
 }
 
+std::string what_solver_lacks(const Model& model, const Solver& solver) {
+  const Need* need = unmet_need(model, solver);
+  return need == nullptr ? "" : "has no passes for " + need->place(model);
+}
+
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
   require_precision(model, solver, precision);
-  require_collision(model, solver);
-  require_strain_limit(model, solver);
+  require_passes(model, solver);
   Plan plan{};
   plan.solver = &solver;
   plan.precision = precision;

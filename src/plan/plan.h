@@ -56,6 +56,9 @@ struct Plan {
 /// Whether the solver runs in f32k: a pass of its substep has a form with compensated positions.
 bool has_compensated(const Solver& solver);
 
+/// Which effect of the scene the solver has no passes for; empty when it can run the scene.
+std::string what_solver_lacks(const Model& model, const Solver& solver);
+
 /// @param precision  "f32", "f32k" or "f64"; f32k takes each pass's compensated form
 /// @throws Error(Exit::usage) listing the precisions, or the solvers that have a compensated form
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision = "f32");

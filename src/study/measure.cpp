@@ -219,7 +219,9 @@ std::unique_ptr<Simulation> Bench::on_host(const Model& model, const Solver& sol
                 : make_cpu_simulation(model, solver, precision);
 }
 
-std::string unavailable(const Bench& bench, const Solver& solver, std::string_view precision) {
+std::string unavailable(const Bench& bench, const Model& model, const Solver& solver,
+                        std::string_view precision) {
+  if (std::string lacks = what_solver_lacks(model, solver); !lacks.empty()) return lacks;
   if (precision == "f32k" && !has_compensated(solver)) return "has no form with compensated positions";
   if (bench.device == nullptr) return "";
   if (!solver.on_gpu) return "runs on the CPU reference only";

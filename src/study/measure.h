@@ -32,7 +32,8 @@ struct MeasureOptions {
 std::span<const std::string_view> precisions();
 
 /// Why a solver does not run in a precision on this bench; empty when it does.
-std::string unavailable(const Bench& bench, const Solver& solver, std::string_view precision);
+std::string unavailable(const Bench& bench, const Model& model, const Solver& solver,
+                        std::string_view precision);
 
 /// Runs the setting over the reference's frames.
 /// @param equilibrium  positions at rest, or empty when the scene has none

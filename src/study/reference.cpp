@@ -1,4 +1,4 @@
-// Refining rk4 in double until it agrees with itself, twins and floors beside it, as many at a time as
+// Refining a solver in double until it agrees with itself, twins and floors beside it, as many at a time as
 // there are processors: a small cloth does not fill them alone.
 #include "study/reference.h"
 
@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "model/measures.h"
+#include "plan/plan.h"
 
 namespace weft::study {
 namespace {
@@ -24,7 +25,7 @@ double seconds_since(Clock::time_point began) {
   return std::chrono::duration<double>(Clock::now() - began).count();
 }
 
-std::uint32_t automatic_substeps(const Model& model, const char* solver) {
+std::uint32_t automatic_substeps(const Model& model, const std::string& solver) {
   Model automatic = with_setting(model, {.solver = solver, .precision = "f64", .substeps = 0});
   return substeps_per_frame(automatic, find_solver(solver));
 }
@@ -37,12 +38,14 @@ std::future<Trajectory> start_run(const Model& model, Setting setting, double ti
 }
 
 /// leapfrog in float at 2, 4 and 8 times its automatic substeps: the smaller of the two distances.
-double float_floor_m(const Model& model, double time_s, const Stop& stop) {
-  const std::uint32_t n = automatic_substeps(model, "leapfrog");
-  Trajectory coarse = run_on_cpu(model, {"leapfrog", "f32", 2 * n}, time_s, stop);
+double float_floor_m(const Model& model, const std::string& fallback, double time_s, const Stop& stop) {
+  const bool able = what_solver_lacks(model, find_solver("leapfrog")).empty();
+  const std::string solver = able ? "leapfrog" : fallback;
+  const std::uint32_t n = automatic_substeps(model, solver);
+  Trajectory coarse = run_on_cpu(model, {solver, "f32", 2 * n}, time_s, stop);
   double least_m = std::numeric_limits<double>::infinity();
   for (const std::uint32_t factor : {4u, 8u}) {
-    Trajectory fine = run_on_cpu(model, {"leapfrog", "f32", factor * n}, time_s, stop);
+    Trajectory fine = run_on_cpu(model, {solver, "f32", factor * n}, time_s, stop);
     least_m = std::min(least_m, trajectory_distance(coarse, fine));
     coarse = std::move(fine);
   }
@@ -57,7 +60,11 @@ class Refinement {
         time_s_(time_s),
         options_(options),
         stop_(stop),
-        substeps_(automatic_substeps(model, "rk4")) {}
+        solver_(reference_solver(model).name),
+        substeps_(automatic_substeps(model, solver_)) {}
+
+  const std::string& solver() const { return solver_; }
+  Setting setting(std::uint32_t level) const { return {solver_, "f64", substeps_at(level)}; }
 
   std::uint32_t substeps_at(std::uint32_t level) const { return substeps_ << level; }
   const Trajectory& newest() const { return newest_; }
@@ -67,8 +74,8 @@ class Refinement {
   bool add(Trajectory level, std::uint32_t number, Reference& reference) {
     const double before_m = reference.agreement_m;
     if (!all_finite(level.back()))
-      throw error(Exit::diverged, "{}: the reference (rk4, f64, {} substeps) left the finite numbers",
-                  model_.scene.source, substeps_at(number));
+      throw error(Exit::diverged, "{}: the reference ({}, f64, {} substeps) left the finite numbers",
+                  model_.scene.source, solver_, substeps_at(number));
     if (number > 0) reference.agreement_m = trajectory_distance(newest_, level);
     newest_ = std::move(level);
     reference.substeps = substeps_at(number);
@@ -88,7 +95,7 @@ class Refinement {
       note(fmt::format("reference at {} substeps a frame (agreement so far {:.1e} m)", substeps_at(number),
                        reference.agreement_m));
       const auto level_began = Clock::now();
-      Trajectory level = run_on_cpu(model_, {"rk4", "f64", substeps_at(number)}, time_s_, stop_);
+      Trajectory level = run_on_cpu(model_, setting(number), time_s_, stop_);
       last_level_s = seconds_since(level_began);
       if (add(std::move(level), number, reference)) return;
     }
@@ -104,18 +111,19 @@ class Refinement {
   double time_s_;
   const ReferenceOptions& options_;
   const Stop& stop_;
+  std::string solver_;
   std::uint32_t substeps_;
   Trajectory newest_;
 };
 
-/// The same cloth at 2·nx − 1 particles, which shares every particle's place; rk4 in double as well.
+/// The same cloth at 2·nx − 1 particles, which shares every particle's place; the same solver in double.
 void measure_discretisation(const Model& model, double time_s, const Stop& stop, Reference& reference) {
   Scene scene = model.scene;
   scene.cloth.resolution = 2 * model.grid.nx - 1;
   scene.solver.substeps = 0;
   const Model fine = build_model(scene);
-  const std::uint32_t n = automatic_substeps(fine, "rk4");
-  const Trajectory frames = run_on_cpu(fine, {"rk4", "f64", n}, time_s, stop);
+  const std::uint32_t n = automatic_substeps(fine, reference.solver);
+  const Trajectory frames = run_on_cpu(fine, {reference.solver, "f64", n}, time_s, stop);
   reference.fine_nx = fine.grid.nx;
   reference.discretisation_m = 0.0;
   for (std::size_t f = 0; f < std::min(frames.size(), reference.frames.size()); ++f)
@@ -130,6 +138,15 @@ double trajectory_bytes(const Model& model, double time_s) {
 }
 
 }  // namespace
+
+const Solver& reference_solver(const Model& model) {
+  const Solver& exact = find_solver("rk4");
+  if (what_solver_lacks(model, exact).empty()) return exact;
+  for (const Solver* solver : solvers())
+    if (what_solver_lacks(model, *solver).empty()) return *solver;
+  compile_plan(model, exact);  // says what no solver has
+  return exact;
+}
 
 State perturbed_start(const Model& model, double distance_m) {
   State state = start_state(model);
@@ -162,17 +179,17 @@ Reference make_reference(const Model& model, double time_s, const ReferenceOptio
                 static_cast<double>(options.memory_bytes) / (1u << 30));
   const auto began = Clock::now();
   Refinement refinement(model, time_s, options, stop);
-  note(fmt::format("reference: rk4 in double at {}, {}, {} substeps a frame, and its twin",
-                   refinement.substeps_at(0), refinement.substeps_at(1), refinement.substeps_at(2)));
+  note(fmt::format("reference: {} in double at {}, {}, {} substeps a frame, and its twin",
+                   refinement.solver(), refinement.substeps_at(0), refinement.substeps_at(1),
+                   refinement.substeps_at(2)));
   std::vector<std::future<Trajectory>> levels;
   for (std::uint32_t number = kFirstLevels; number-- > 0;)
-    levels.insert(levels.begin(),
-                  start_run(model, {"rk4", "f64", refinement.substeps_at(number)}, time_s, stop));
-  std::future<Trajectory> twin = start_run(model, {"rk4", "f64", refinement.substeps_at(0)}, time_s, stop,
-                                           perturbed_start(model, kTwinStart_m));
+    levels.insert(levels.begin(), start_run(model, refinement.setting(number), time_s, stop));
+  std::future<Trajectory> twin =
+      start_run(model, refinement.setting(0), time_s, stop, perturbed_start(model, kTwinStart_m));
   std::future<double> float_floor =
-      std::async(std::launch::async, [&] { return float_floor_m(model, time_s, stop); });
-  Reference reference{.allowed_s = options.seconds};
+      std::async(std::launch::async, [&] { return float_floor_m(model, refinement.solver(), time_s, stop); });
+  Reference reference{.solver = refinement.solver(), .allowed_s = options.seconds};
   bool ended = false;
   for (std::uint32_t number = 0; number < kFirstLevels; ++number) {
     Trajectory level = levels[number].get();

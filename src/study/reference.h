@@ -24,11 +24,13 @@ struct ReferenceOptions {
 enum class Ending { agreed, no_gain, out_of_time };
 
 struct Reference {
+  std::string solver = "rk4";  ///< that was refined
   std::uint32_t substeps = 0;  ///< of the finest level
   double agreement_m = 0;      ///< error between the two finest levels
   Ending ending = Ending::agreed;
   double twin_m = 0;             ///< largest RMS drift of a double-precision run started 1e-7 m apart
-  double float_floor_m = 0;      ///< leapfrog in f32 against itself at half the step, where that is least
+  double float_floor_m = 0;      ///< leapfrog (or `solver`, where that cannot run the scene) in f32 against
+                                 ///< itself at half the step, where that is least
   double discretisation_m = -1;  ///< against the same cloth at twice the resolution; −1: not measured
   std::uint32_t fine_nx = 0;     ///< that resolution
   double allowed_s = 0;          ///< ReferenceOptions::seconds it was made with
@@ -41,7 +43,10 @@ inline constexpr double kTwinStart_m = 1e-7;  ///< RMS distance between the twin
 /// particles is `distance_m`.
 State perturbed_start(const Model& model, double distance_m);
 
-/// Runs rk4 in double at 1, 2, 4, … times its automatic substeps until two levels agree.
+/// What a scene's reference is computed with: rk4, or the first solver that has the passes of its effects.
+const Solver& reference_solver(const Model& model);
+
+/// Runs reference_solver in double at 1, 2, 4, … times its automatic substeps until two levels agree.
 /// @param note  told what is computed
 /// @throws Error(Exit::interrupted); Error(Exit::diverged) when the reference itself leaves the finite
 /// numbers

@@ -24,6 +24,7 @@ void append(std::string& bytes, const void* data, std::size_t size) {
 
 Json head_of(const Reference& reference, std::string_view identity) {
   return {{"identity", identity},
+          {"solver", reference.solver},
           {"substeps", reference.substeps},
           {"agreement_m", json_of(reference.agreement_m)},
           {"ending", static_cast<int>(reference.ending)},
@@ -38,6 +39,7 @@ Json head_of(const Reference& reference, std::string_view identity) {
 
 Reference from_head(const Json& head) {
   Reference reference;
+  reference.solver = head.value("solver", "rk4");
   reference.substeps = head.at("substeps");
   reference.agreement_m = number_of(head.at("agreement_m"));
   reference.ending = static_cast<Ending>(head.at("ending").get<int>());
@@ -86,7 +88,9 @@ std::optional<Reference> load(const std::filesystem::path& file, const std::stri
 bool good_enough(const Model& model, const Reference& reference, const ReferenceOptions& options) {
   if (reference.ending == Ending::out_of_time && reference.allowed_s >= options.seconds)
     return true;  // no better one would come of trying again
-  const std::uint32_t first = substeps_per_frame(with_setting(model, {"rk4", "f64", 0}), find_solver("rk4"));
+  const Solver& solver = reference_solver(model);
+  if (reference.solver != solver.name) return false;
+  const std::uint32_t first = substeps_per_frame(with_setting(model, {reference.solver, "f64", 0}), solver);
   const bool agreed =
       reference.agreement_m <= options.tolerance_m && reference.substeps >= first << (options.levels_min - 1);
   const bool settled = reference.ending == Ending::no_gain || agreed;

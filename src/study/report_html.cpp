@@ -61,11 +61,11 @@ std::string table(const Study& study, std::uint32_t nx) {
 
 std::string reference_text(const Cloth& cloth, double time_s) {
   std::string text = fmt::format(
-      "<p>Reference: rk4 in double at {} substeps a frame; its two finest refinements agree to {} m ({}). "
+      "<p>Reference: {} in double at {} substeps a frame; its two finest refinements agree to {} m ({}). "
       "Two double-precision runs started 1e-7 m apart drift by {} m within {:g} s: below that a comparison "
-      "of trajectories means nothing. leapfrog in float32 differs from itself at half the step by {} m at "
+      "of trajectories means nothing. Single precision differs from itself at half the step by {} m at "
       "least.",
-      cloth.reference_substeps, metres(cloth.agreement_m),
+      cloth.reference_solver, cloth.reference_substeps, metres(cloth.agreement_m),
       cloth.ending == "agreed"    ? "they agree as asked for"
       : cloth.ending == "no gain" ? "a finer step no longer helps"
                                   : "the time allowed ended the refinement",

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Cloth& c) {
   return {{"nx", c.nx},
           {"ny", c.ny},
+          {"reference_solver", c.reference_solver},
           {"reference_substeps", c.reference_substeps},
           {"reference_agreement_m", json_of(c.agreement_m)},
           {"refinement_ended", c.ending},
@@ -31,6 +32,7 @@ Cloth cloth_from_json(const Json& json) {
   Cloth c;
   c.nx = json.at("nx");
   c.ny = json.at("ny");
+  c.reference_solver = json.value("reference_solver", "rk4");
   c.reference_substeps = json.at("reference_substeps");
   c.agreement_m = number_of(json.at("reference_agreement_m"));
   c.ending = json.at("refinement_ended");

@@ -13,6 +13,7 @@ namespace weft::study {
 /// What is known of the cloth at one resolution, whatever solver runs.
 struct Cloth {
   std::uint32_t nx = 0, ny = 0;
+  std::string reference_solver = "rk4";
   std::uint32_t reference_substeps = 0;
   double agreement_m = 0;        ///< of the reference's two finest refinements
   std::string ending;            ///< why refinement ended: "agreed", "no gain", "out of time"

@@ -28,9 +28,10 @@ constexpr double kQuickSeconds = 105.0;  // of the two minutes that --quick prom
 constexpr double kNoLimit_s = 1e8;
 constexpr double kQuickReferenceSeconds = 25.0;
 
-// rk4 in double is swept up to 4 (quick) or 8 times its automatic count. Two refinements beyond, the
-// reference agrees with itself to a sixteenth of the error there.
-constexpr std::uint32_t kLevelsBesideQuickRk4 = 5, kLevelsBesideRk4 = 6;
+// The reference's own solver in double is swept up to 4 (quick) or 8 times its automatic count. Two
+// refinements beyond, rk4 agrees with itself to a sixteenth of the error there, and what is of second order
+// to a quarter.
+constexpr std::uint32_t kLevelsBesideQuick = 5, kLevelsBeside = 6;
 
 /// One resolution's part of the sweep.
 struct Part {
@@ -95,6 +96,7 @@ Cloth describe(const Part& part) {
   const Reference& r = part.reference;
   return {.nx = part.model.grid.nx,
           .ny = part.model.grid.ny,
+          .reference_solver = r.solver,
           .reference_substeps = r.substeps,
           .agreement_m = r.agreement_m,
           .ending = std::string(name_of(r.ending)),
@@ -153,9 +155,10 @@ class Sweep {
     Part part{.model = build_model(scene), .reference = {}, .equilibrium = {}};
     ReferenceOptions wish;
     if (options_.quick) wish.seconds = kQuickReferenceSeconds;
-    if (wanted(options_.solvers, "rk4") && wanted(options_.precisions, "f64") &&
-        unavailable(bench_, find_solver("rk4"), "f64").empty())
-      wish.levels_min = options_.quick ? kLevelsBesideQuickRk4 : kLevelsBesideRk4;
+    const Solver& solver = reference_solver(part.model);
+    if (wanted(options_.solvers, solver.name) && wanted(options_.precisions, "f64") &&
+        unavailable(bench_, part.model, solver, "f64").empty())
+      wish.levels_min = options_.quick ? kLevelsBesideQuick : kLevelsBeside;
     part.reference = find_reference(part.model, options_.time_s, wish, watch_.stop, watch_.note);
     watch_.note("static equilibrium");
     part.equilibrium = find_equilibrium(part.model, part.reference.frames.back(), watch_.stop);
@@ -170,7 +173,8 @@ class Sweep {
       if (!wanted(options_.precisions, precision)) continue;
       for (const Solver* solver : solvers()) {
         if (!wanted(options_.solvers, solver->name)) continue;
-        if (const std::string reason = unavailable(bench_, *solver, precision); !reason.empty()) {
+        if (const std::string reason = unavailable(bench_, parts_.front().model, *solver, precision);
+            !reason.empty()) {
           study_.left_out.push_back({fmt::format("{} {}", solver->name, precision), reason});
           continue;
         }
