@@ -61,9 +61,9 @@ TEST(Reference, WhatRk4CannotRunIsRefinedWithASolverThatCan) {
   few.discretisation = false;
   const Reference reference = make_reference(model, kTime_s, few, kGoOn, kQuiet);
   EXPECT_EQ(reference.solver, "leapfrog");
-  // A projection once a substep converges in first order: five levels leave a sixteenth of the coarsest's error.
-  const Trajectory coarse =
-      run_on_cpu(model, {"leapfrog", "f64", reference.substeps >> 4}, kTime_s, kGoOn);
+  // A projection once a substep converges in first order: five levels leave a sixteenth of the coarsest's
+  // error.
+  const Trajectory coarse = run_on_cpu(model, {"leapfrog", "f64", reference.substeps >> 4}, kTime_s, kGoOn);
   EXPECT_LE(reference.agreement_m, 0.15 * trajectory_distance(coarse, reference.frames));
   Scene touching = small_scene();
   touching.self_collision = SelfCollisionSection{};
