@@ -98,9 +98,10 @@ Scene hung(std::uint32_t n, double damping_s) {
 
 /// Largest deviation of the energy from its start over 10 s undamped, over the weight times the cloth's
 /// height m·g·L: the scale of the energies that the swing exchanges.
-double energy_error(const char* solver, std::uint32_t finer) {
+double energy_error(const char* solver, double finer) {
   Model model = build_model(hung(12, 0.0));
-  model.scene.solver.substeps = finer * substeps_per_frame(model, find_solver(solver));
+  model.scene.solver.substeps =
+      static_cast<std::uint32_t>(std::ceil(finer * substeps_per_frame(model, find_solver(solver))));
   const auto simulation = make_cpu_simulation(model, find_solver(solver), "f64");
   const double start_j = energy(model, simulation->read()).total();
   double worst_j = 0.0;
@@ -112,11 +113,12 @@ double energy_error(const char* solver, std::uint32_t finer) {
 }
 
 // The energy does not drift: it sways by an amount of second order in the step, 0.8 % near the stability
-// limit (where ωh is about 1.3 for the stiffest mode) and a quarter of that, 0.2 %, at half the step.
+// limit (where ωh is about 1.3 for the stiffest mode) and 0.4 % at the 170 substeps against 113 of the
+// work-precision table, for which the law's 0.5 % is meant.
 TEST(Energy, UndampedStaysForTenSeconds) {
   for (const char* solver : {"velocity-verlet", "leapfrog", "verlet"}) {
     EXPECT_LE(energy_error(solver, 1), 0.012) << solver;
-    EXPECT_LE(energy_error(solver, 2), 0.005) << solver;
+    EXPECT_LE(energy_error(solver, 1.5), 0.005) << solver;
   }
 }
 
