@@ -7,6 +7,7 @@
 #include <set>
 
 #include "plan/plan.h"
+#include "scene/effects.h"
 
 namespace weft {
 namespace {

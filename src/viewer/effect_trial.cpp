@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "scene/parameters.h"
+#include "scene/effects.h"
 #include "solvers/solver.h"
 
 namespace weft {
@@ -21,24 +21,9 @@ double quickest(const std::vector<double>& frames_ms) {
 }  // namespace
 
 std::vector<std::string> removable_effects(const Scene& scene) {
-  std::vector<std::string> effects;
-  if (scene.material.bend_n_m > 0.0) effects.emplace_back("bend");
-  for (const std::string_view section : section_names()) {
-    const bool stays = section.empty() || section == "cloth" || section == "material" ||
-                       section == "solver" || section == "expect" || section == "pins";
-    if (!stays && has_section(scene, section)) effects.emplace_back(section);
-  }
-  return effects;
-}
-
-Scene without_effect(Scene scene, std::string_view effect) {
-  if (effect == "bend") {
-    scene.material.bend_n_m = 0.0;
-    return scene;
-  }
-  remove_section(scene, effect);
-  if (effect == "air") remove_section(scene, "wind");
-  return scene;
+  std::vector<std::string> names = effects_of(scene);
+  std::erase(names, "pins");
+  return names;
 }
 
 EffectTrial::EffectTrial(gpu::Device& device, GpuSimulation& running)

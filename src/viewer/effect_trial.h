@@ -18,11 +18,9 @@ struct EffectCost {
   double doubt_ms = 0.0;  ///< less than this is not told from nothing
 };
 
-/// Effects of a scene that can be left out: its optional sections, and "bend".
+/// The scene's effects whose cost can be told by leaving them out: all but the pins, without which it would be
+/// another motion.
 std::vector<std::string> removable_effects(const Scene& scene);
-
-/// The scene without one of them. Without air there is no wind either.
-Scene without_effect(Scene scene, std::string_view effect);
 
 class EffectTrial {
  public:

@@ -9,6 +9,7 @@
 #include "gpu_fixture.h"
 #include "model/measures.h"
 #include "plan/plan.h"
+#include "scene/effects.h"
 #include "viewer/parameter_widgets.h"
 
 namespace weft {

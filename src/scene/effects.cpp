@@ -1,0 +1,103 @@
+// The list of effects. A new optional section takes a row here; a test holds the two together.
+#include "scene/effects.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "scene/parameters.h"
+
+namespace weft {
+namespace {
+
+constexpr double kFar_m = 100.0;  // below the cloth, where nothing falls within a benchmark
+
+double cell_m(const Scene& scene) { return scene.cloth.width_m / (scene.cloth.resolution - 1); }
+
+double far_below_m(const Scene& scene) { return scene.cloth.center_m.y - kFar_m; }
+
+constexpr std::array kEffectList{
+    Effect{.name = "bend",
+           .needs = "",
+           .add = [](Scene& s) { s.material.bend_n_m = 2e-5; },
+           .remove = [](Scene& s) { s.material.bend_n_m = 0.0; },
+           .present = [](const Scene& s) { return s.material.bend_n_m > 0.0; }},
+    Effect{.name = "damping",
+           .needs = "",
+           .add = [](Scene& s) { s.material.damping_s = 1e-4; },
+           .remove = [](Scene& s) { s.material.damping_s = 0.0; },
+           .present = [](const Scene& s) { return s.material.damping_s > 0.0; }},
+    Effect{.name = "strain_limit",
+           .needs = "",
+           .add = [](Scene& s) { s.material.strain_limit = 1.0; },
+           .remove = [](Scene& s) { s.material.strain_limit = 0.0; },
+           .present = [](const Scene& s) { return s.material.strain_limit > 0.0; }},
+    Effect{.name = "pins",
+           .needs = "",
+           .add =
+               [](Scene& s) {
+                 s.pins = {{{0.0, 0.0}}, {{1.0, 0.0}}};
+               }},
+    Effect{.name = "gravity", .needs = "", .add = [](Scene& s) { s.gravity = GravitySection{}; }},
+    Effect{.name = "air", .needs = "", .add = [](Scene& s) { s.air = AirSection{0.1}; }},
+    Effect{.name = "wind",
+           .needs = "air",
+           .add =
+               [](Scene& s) {
+                 s.wind = WindSection{{0.0, 0.0, 1.0}};
+               }},
+    Effect{.name = "floor", .needs = "", .add = [](Scene& s) { s.floor = FloorSection{far_below_m(s)}; }},
+    Effect{.name = "spheres",
+           .needs = "",
+           .add =
+               [](Scene& s) {
+                 s.spheres = {{.center_m = {0.0, far_below_m(s), 0.0}, .radius_m = 0.25}};
+               }},
+    Effect{.name = "self_collision",
+           .needs = "",
+           .add = [](Scene& s) { s.self_collision = SelfCollisionSection{0.5 * cell_m(s)}; }},
+};
+
+void take_out(Scene& scene, const Effect& effect) {
+  if (effect.remove != nullptr)
+    effect.remove(scene);
+  else
+    remove_section(scene, effect.name);
+}
+
+}  // namespace
+
+std::span<const Effect> effects() { return kEffectList; }
+
+const Effect& find_effect(std::string_view name) {
+  const auto* effect = std::ranges::find(kEffectList, name, &Effect::name);
+  if (effect == kEffectList.end()) throw error(Exit::internal, "\"{}\" is no effect", name);
+  return *effect;
+}
+
+bool has_effect(const Scene& scene, const Effect& effect) {
+  return effect.present != nullptr ? effect.present(scene) : has_section(scene, effect.name);
+}
+
+std::vector<std::string> effects_of(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Effect& effect : kEffectList)
+    if (has_effect(scene, effect)) names.emplace_back(effect.name);
+  return names;
+}
+
+Scene with_effect(Scene scene, std::string_view name) {
+  const Effect& effect = find_effect(name);
+  if (!effect.needs.empty()) scene = with_effect(std::move(scene), effect.needs);
+  if (!has_effect(scene, effect)) effect.add(scene);
+  return scene;
+}
+
+Scene without_effect(Scene scene, std::string_view name) {
+  take_out(scene, find_effect(name));
+  for (const Effect& other : kEffectList)
+    if (other.needs == name) take_out(scene, other);
+  return scene;
+}
+
+}  // namespace weft
