@@ -2,6 +2,7 @@
 #include "sim/bench.h"
 
 #include "cli/bench_backends.h"
+#include "cli/bench_effects.h"
 #include "cli/command.h"
 #include "cli/setup.h"
 #include "cli/table.h"
@@ -68,6 +69,7 @@ Exit run_bench(const Options& o) {
                 "bench: --device is cpu; it must be a Vulkan device, whose timestamps are read, or native, "
                 "which is timed "
                 "beside all others; see `weft devices`");
+  if (o.effects) return run_effect_bench(o);
   if (o.on_native()) return run_backend_bench(o);
   std::vector<Scene> scenes;
   for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
@@ -94,7 +96,8 @@ const Command bench_command{"bench", "times the passes at 64 to 1024 particles a
                             "  weft bench\n"
                             "  weft bench 1 4 --resolution 256\n"
                             "  weft bench 1 --format json > bench.json\n"
-                            "  weft bench 1 --device native      (all backends side by side)",
-                            add_scenes, run_bench};
+                            "  weft bench 1 --device native      (all backends side by side)\n"
+                            "  weft bench 5 --effects            (each effect with and without it)",
+                            add_bench_options, run_bench};
 
 }  // namespace weft::cli

@@ -171,6 +171,11 @@ void add_choice_options(CLI::App& app, Options& o) {
            });
 }
 
+void add_bench_options(CLI::App& app, Options& o) {
+  add_scenes(app, o);
+  app.add_flag("--effects", o.effects, "what each effect costs: the scene with it and without it, by turns");
+}
+
 void add_study_options(CLI::App& app, Options& o) {
   app.add_flag("--quick", o.study.quick, "fewer points and runs: at most two minutes");
   add_text(app, "--resolutions", "particles along the width; default the scene's (with --quick at most 33)",

@@ -46,6 +46,7 @@ struct Options {
   Format format = Format::human;
   bool validation = false, force_staging = false, quiet = false, verbose = false, check = false;
   std::optional<std::filesystem::path> out;
+  bool effects = false;  ///< `bench` only: what each effect costs
   PictureOptions picture;
   StudyOptions study;
   std::string command_line;  ///< as typed, for reports
@@ -75,6 +76,9 @@ void add_picture_options(CLI::App&, Options&);
 
 /// Adds `--error` and `--budget`.
 void add_choice_options(CLI::App&, Options&);
+
+/// Adds SCENE and the options of `bench`.
+void add_bench_options(CLI::App&, Options&);
 
 /// Adds the options of `study`.
 void add_study_options(CLI::App&, Options&);

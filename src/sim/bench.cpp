@@ -21,17 +21,6 @@ constexpr VkDeviceSize kCopyBytes = VkDeviceSize{128} << 20;  // larger than any
 constexpr std::uint32_t kCopyRow = 4096;                      // vec4s a row of workgroups: 2-D, 1-D overflows
 constexpr double kSubmitMs = 40;
 
-Sample sample_of(std::vector<double> values) {
-  std::ranges::sort(values);
-  const auto at = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto low = static_cast<std::size_t>(place);
-    const auto high = std::min(low + 1, values.size() - 1);
-    return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
-  };
-  return {at(0.5), (at(0.75) - at(0.25)) / 2};
-}
-
 Plan planned(const Model& model) {
   const SolverSection& wanted = model.scene.solver;
   return compile_plan(model, find_solver(wanted.name), wanted.precision);
@@ -247,6 +236,17 @@ bool fits(gpu::Device& device, const Scene& scene) {
 }
 
 }  // namespace
+
+Sample sample_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  const auto at = [&](double share) {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto low = static_cast<std::size_t>(place);
+    const auto high = std::min(low + 1, values.size() - 1);
+    return values[low] + (place - static_cast<double>(low)) * (values[high] - values[low]);
+  };
+  return {at(0.5), (at(0.75) - at(0.25)) / 2};
+}
 
 double bytes_per_particle_substep(const Plan& plan) {
   const BufferRow& row = row_of(BufferId::position);

@@ -23,6 +23,8 @@ struct Sample {
   double median = 0, spread = 0;
 };
 
+Sample sample_of(std::vector<double> values);
+
 struct CopyBandwidth {
   Sample command_gb_s;  ///< vkCmdCopyBuffer, bytes read plus bytes written
   Sample shader_gb_s;   ///< a compute shader copying vec4s

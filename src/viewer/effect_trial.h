@@ -18,8 +18,8 @@ struct EffectCost {
   double doubt_ms = 0.0;  ///< less than this is not told from nothing
 };
 
-/// The scene's effects whose cost can be told by leaving them out: all but the pins, without which it would be
-/// another motion.
+/// The scene's effects whose cost can be told by leaving them out: all but the pins, without which it would
+/// be another motion.
 std::vector<std::string> removable_effects(const Scene& scene);
 
 class EffectTrial {

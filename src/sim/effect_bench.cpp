@@ -1,0 +1,128 @@
+// Both sides start every turn from the same state, so that they compute the same frame; the cost is taken
+// turn by turn, so that what else the machine does falls on both.
+#include "sim/effect_bench.h"
+
+#include <chrono>
+#include <memory>
+#include <numeric>
+
+#include "core/error.h"
+#include "model/model.h"
+#include "scene/effects.h"
+#include "sim/gpu_simulation.h"
+#include "solvers/solver.h"
+
+namespace weft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::uint32_t automatic_substeps(Scene scene) {
+  scene.solver.substeps = 0;
+  return substeps_per_frame(build_model(scene), find_solver(scene.solver.name));
+}
+
+/// A scene on the device, and what its turns took.
+class Side {
+ public:
+  Side(gpu::Device& device, Scene scene, std::uint32_t substeps, std::shared_ptr<GpuPipelines> pipelines)
+      : frame_s_(scene.solver.frame_s), substeps_(substeps), automatic_(automatic_substeps(scene)) {
+    scene.solver.substeps = substeps;
+    simulation_ = GpuSimulation::create(device, build_model(scene), find_solver(scene.solver.name),
+                                        {.perturb = {}, .pipelines = std::move(pipelines)});
+  }
+  /// One frame from `state`. Returns its milliseconds.
+  double turn(const State& state) {
+    simulation_->write(state);
+    simulation_->advance(frame_s_, substeps_);
+    simulation_->wait();
+    const std::vector<double> steps = simulation_->step_ms();
+    return std::accumulate(steps.begin(), steps.end(), 0.0);
+  }
+  GpuSimulation& simulation() { return *simulation_; }
+  EffectSide result(const std::vector<double>& frames_ms) const {
+    return {.frame_ms = sample_of(frames_ms),
+            .bytes = simulation_->bytes_allocated(),
+            .dispatches = simulation_->dispatches_expected(substeps_),
+            .automatic = automatic_};
+  }
+
+ private:
+  double frame_s_;
+  std::uint32_t substeps_, automatic_;
+  std::unique_ptr<GpuSimulation> simulation_;
+};
+
+/// The state after some time of the scene as it stands.
+State state_after(gpu::Device& device, const Scene& scene, double time_s,
+                  const std::shared_ptr<GpuPipelines>& pipelines) {
+  const auto simulation = GpuSimulation::create(device, build_model(scene), find_solver(scene.solver.name),
+                                                {.perturb = {}, .pipelines = pipelines});
+  run_for(*simulation, time_s, [](auto...) { return true; });
+  State state = simulation->read();
+  state.time_s = 0.0;
+  return state;
+}
+
+EffectRow compare(gpu::Device& device, const Scene& with_scene, const Scene& without_scene,
+                  const State& state, std::uint32_t repetitions,
+                  const std::shared_ptr<GpuPipelines>& pipelines) {
+  const std::uint32_t substeps =
+      with_scene.solver.substeps != 0 ? with_scene.solver.substeps : automatic_substeps(with_scene);
+  Side with(device, with_scene, substeps, pipelines), without(device, without_scene, substeps, pipelines);
+  with.turn(state), without.turn(state);
+  std::vector<double> with_ms, without_ms, cost;
+  for (std::uint32_t turn = 0; turn < repetitions; ++turn) {
+    with_ms.push_back(with.turn(state));
+    without_ms.push_back(without.turn(state));
+    cost.push_back((with_ms.back() - without_ms.back()) / without_ms.back());
+  }
+  const auto began = Clock::now();
+  Side(device, with_scene, substeps, pipelines).simulation().write(state);
+  EffectRow row{.toggle_ms = ms_since(began)};
+  row.with = with.result(with_ms);
+  row.without = without.result(without_ms);
+  const Sample share = sample_of(cost);
+  row.cost = share.median;
+  row.cost_spread = share.spread;
+  return row;
+}
+
+}  // namespace
+
+EffectBenchReport bench_effects(gpu::Device& device, const Scene& scene, const EffectBenchOptions& options,
+                                const std::function<void(const std::string&)>& note) {
+  if (!device.info().timestamps)
+    throw error(Exit::no_device, "{} has no timestamps; bench needs them", device.info().name);
+  const auto pipelines = std::make_shared<GpuPipelines>(device);
+  const State state = state_after(device, scene, options.time_s, pipelines);
+  const Model model = build_model(scene);
+  EffectBenchReport report{.device = device.info().name,
+                           .scene = scene.title.empty() ? scene.source : scene.title,
+                           .solver = scene.solver.name,
+                           .precision = scene.solver.precision,
+                           .nx = model.grid.nx,
+                           .ny = model.grid.ny};
+  for (const Effect& effect : effects()) {
+    note(std::string(effect.name));
+    const bool there = has_effect(scene, effect);
+    const Scene with = there ? scene : with_effect(scene, effect.name);
+    Scene without = without_effect(with, effect.name);
+    EffectRow row;
+    const std::string lacks = what_solver_lacks(build_model(with), find_solver(with.solver.name));
+    if (lacks.empty())
+      row = compare(device, with, without, state, options.repetitions, pipelines);
+    else
+      row.left_out = with.solver.name + " " + lacks;
+    row.effect = effect.name;
+    row.in_scene = there;
+    report.rows.push_back(std::move(row));
+  }
+  return report;
+}
+
+}  // namespace weft

@@ -1,0 +1,47 @@
+// What each effect of a scene costs on a device: the scene with it and without it, by turns in one run.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "sim/bench.h"
+
+namespace weft {
+
+struct EffectBenchOptions {
+  double time_s = 0.5;            ///< simulated before anything is timed, so that contacts have begun
+  std::uint32_t repetitions = 9;  ///< frames of each of the two, after one that warms up
+};
+
+/// One side of a comparison.
+struct EffectSide {
+  Sample frame_ms;               ///< of a frame, by the device's timestamps
+  std::uint64_t bytes = 0;       ///< allocated by the simulation
+  std::uint64_t dispatches = 0;  ///< of a frame
+  std::uint32_t automatic = 0;   ///< substeps a frame that the scene asks for by itself
+};
+
+struct EffectRow {
+  std::string effect;
+  bool in_scene = false;     ///< else it was added and has nothing to do
+  EffectSide with, without;  ///< with equal substeps: those that `with` asks for
+  double cost = 0;           ///< median of the turns' (with − without)/without
+  double cost_spread = 0;    ///< half the distance between the quartiles of that
+  double toggle_ms = 0;  ///< making the other plan's simulation with the state carried over, pipelines known
+  std::string left_out;  ///< why it was not measured; empty when it was
+};
+
+struct EffectBenchReport {
+  std::string device, scene, solver, precision, kernel;
+  std::uint32_t nx = 0, ny = 0;
+  std::vector<EffectRow> rows;
+};
+
+/// @param note  told which effect is timed
+/// @throws Error(Exit::no_device) when the device has no timestamps
+EffectBenchReport bench_effects(gpu::Device&, const Scene&, const EffectBenchOptions&,
+                                const std::function<void(const std::string&)>& note);
+
+}  // namespace weft
