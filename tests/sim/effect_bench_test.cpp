@@ -1,4 +1,5 @@
-// The table of what effects cost: every effect is in it, and what a scene lacks weighs nothing on either side.
+// The table of what effects cost: every effect is in it, and what a scene lacks weighs nothing on either
+// side.
 #include "sim/effect_bench.h"
 
 #include <gtest/gtest.h>
