@@ -36,10 +36,15 @@ std::string factor_text(double factor) {
   return factor >= 0.095 || factor == 0.0 ? fmt::format("{:.2f}", factor) : fmt::format("{:.2g}", factor);
 }
 
+/// Milliseconds, or seconds where those would not fit the panel's width.
+std::string duration_text(double ms) {
+  return ms < 1e4 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.0f} s", 1e-3 * ms);
+}
+
 /// Until a frame is done, what to expect of it.
 std::string frame_text(const RunFigures& figures) {
-  if (figures.frame_ms > 0.0) return fmt::format("{:.1f} ms", figures.frame_ms);
-  return figures.expected_ms > 0.0 ? fmt::format("about {:.0f} ms", figures.expected_ms) : "...";
+  if (figures.frame_ms > 0.0) return duration_text(figures.frame_ms);
+  return figures.expected_ms > 0.0 ? "about " + duration_text(figures.expected_ms) : "...";
 }
 
 /// Which of the two keeps the scene from its pace.
