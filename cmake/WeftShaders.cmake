@@ -12,7 +12,22 @@ list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensa
 list(TRANSFORM double_sources APPEND "+WEFT_F64")
 list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
 
-foreach(variant ${shader_sources} ${double_sources})
+# Kernels that lack an effect, one constant of effects.glsl each: what bench --effects holds against those that have
+# it switched off.
+set(lacking_sources "")
+if(WEFT_BENCH_LACKING)
+  file(STRINGS ${CMAKE_SOURCE_DIR}/shaders/shared/effects.glsl lacks REGEX "^#ifdef WEFT_LACKS_")
+  list(TRANSFORM lacks REPLACE "^#ifdef " "")
+  foreach(source ${shader_sources})
+    if(source MATCHES "/integrate(_bands|_steal|_strip|_texel)?\\.comp$")
+      foreach(macro ${lacks})
+        list(APPEND lacking_sources ${source}+${macro})
+      endforeach()
+    endif()
+  endforeach()
+endif()
+
+foreach(variant ${shader_sources} ${double_sources} ${lacking_sources})
   string(REGEX REPLACE "\\+.*" "" source ${variant})
   set(define "")
   if(variant MATCHES "\\+(.*)$")

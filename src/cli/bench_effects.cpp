@@ -1,6 +1,8 @@
 // What each effect costs, as one table: milliseconds, bytes and dispatches with it and without it.
 #include "cli/bench_effects.h"
 
+#include <cmath>
+
 #include "cli/setup.h"
 #include "cli/table.h"
 #include "sim/effect_bench.h"
@@ -8,17 +10,24 @@
 namespace weft::cli {
 namespace {
 
+/// Of an effect that is off, over a build without it; nothing where no such build is there.
+nlohmann::ordered_json absent_percent(const EffectRow& row) {
+  if (std::isnan(row.absent_cost)) return nullptr;
+  return 100 * row.absent_cost;
+}
+
 Table effect_table(const EffectBenchReport& report) {
   Table table{{"scene", "effect", "state", "ms_with", "ms_without", "cost_percent", "spread_percent",
-               "bytes_with", "bytes_without", "dispatches_with", "dispatches_without", "substeps_with",
-               "substeps_without", "toggle_ms"},
+               "absent_percent", "bytes_with", "bytes_without", "dispatches_with", "dispatches_without",
+               "substeps_with", "substeps_without", "toggle_ms"},
               {}};
   for (const EffectRow& row : report.rows) {
     if (!row.left_out.empty()) continue;
     table.rows.push_back({report.scene, row.effect, row.in_scene ? "at work" : "idle",
                           row.with.frame_ms.median, row.without.frame_ms.median, 100 * row.cost,
-                          100 * row.cost_spread, row.with.bytes, row.without.bytes, row.with.dispatches,
-                          row.without.dispatches, row.with.automatic, row.without.automatic, row.toggle_ms});
+                          100 * row.cost_spread, absent_percent(row), row.with.bytes, row.without.bytes,
+                          row.with.dispatches, row.without.dispatches, row.with.automatic,
+                          row.without.automatic, row.toggle_ms});
   }
   return table;
 }

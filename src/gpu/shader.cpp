@@ -1,6 +1,7 @@
 // Where SPIR-V comes from: embedded at build time, or GLSL compiled by shaderc at run time.
 #include "gpu/shader.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -113,6 +114,14 @@ std::vector<std::uint32_t> load_spirv(std::string_view name) {
   for (const EmbeddedSpirv* module = embedded_spirv(); module->name != nullptr; ++module)
     if (name == module->name) return {module->words, module->words + module->count};
   throw error(Exit::internal, "There is no embedded shader \"{}\"", name);
+}
+
+bool has_spirv(std::string_view name) {
+  const std::lock_guard lock(shader_dir().mutex);
+  const std::filesystem::path& dir = shader_dir().path;
+  if (!dir.empty()) return std::filesystem::is_regular_file(dir / name.substr(0, name.find('+')));
+  const std::vector<std::string_view> names = embedded_shaders();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::vector<std::string_view> embedded_shaders() {

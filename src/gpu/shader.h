@@ -16,6 +16,7 @@ namespace weft::gpu {
 /// When a shader folder is set (set_shader_dir), the source there is compiled with shaderc instead.
 /// @throws Error(Exit::usage) with the compiler's file:line messages.
 std::vector<std::uint32_t> load_spirv(std::string_view name);
+bool has_spirv(std::string_view name);                  ///< whether load_spirv would find it
 void set_shader_dir(const std::filesystem::path& dir);  ///< empty: embedded modules
 std::vector<std::string_view> embedded_shaders();
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "model/model.h"
@@ -68,18 +69,34 @@ State state_after(gpu::Device& device, const Scene& scene, double time_s,
   return state;
 }
 
+/// The constants of `integrate` that are 0 without the effect and were not with it.
+std::vector<std::string> constants_lost(const Plan& with, const Plan& without) {
+  std::vector<std::string> lost;
+  for (std::size_t k = 0; k < with.steps[0].constants.size(); ++k) {
+    const Constant &on = with.steps[0].constants[k], &off = without.steps[0].constants[k];
+    if (on.value != 0 && off.value == 0) lost.emplace_back(on.name);
+  }
+  return lost;
+}
+
 EffectRow compare(gpu::Device& device, const Scene& with_scene, const Scene& without_scene,
                   const State& state, std::uint32_t repetitions,
                   const std::shared_ptr<GpuPipelines>& pipelines) {
   const std::uint32_t substeps =
       with_scene.solver.substeps != 0 ? with_scene.solver.substeps : automatic_substeps(with_scene);
   Side with(device, with_scene, substeps, pipelines), without(device, without_scene, substeps, pipelines);
+  const std::vector<std::string> lost = constants_lost(with.simulation().plan(), without.simulation().plan());
+  std::optional<Side> lacking;  // what runs without the effect, in a build that never had it
+  if (lost.size() == 1 && GpuPipelines::can_lack(lost[0]))
+    lacking.emplace(device, without_scene, substeps, std::make_shared<GpuPipelines>(device, lost[0]));
   with.turn(state), without.turn(state);
-  std::vector<double> with_ms, without_ms, cost;
+  if (lacking) lacking->turn(state);
+  std::vector<double> with_ms, without_ms, cost, absent;
   for (std::uint32_t turn = 0; turn < repetitions; ++turn) {
     with_ms.push_back(with.turn(state));
     without_ms.push_back(without.turn(state));
     cost.push_back((with_ms.back() - without_ms.back()) / without_ms.back());
+    if (lacking) absent.push_back(without_ms.back() / lacking->turn(state) - 1.0);
   }
   const auto began = Clock::now();
   Side(device, with_scene, substeps, pipelines).simulation().write(state);
@@ -89,6 +106,7 @@ EffectRow compare(gpu::Device& device, const Scene& with_scene, const Scene& wit
   const Sample share = sample_of(cost);
   row.cost = share.median;
   row.cost_spread = share.spread;
+  if (lacking) row.absent_cost = sample_of(absent).median, row.absent_spread = sample_of(absent).spread;
   return row;
 }
 

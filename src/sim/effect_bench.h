@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,10 @@ struct EffectRow {
   EffectSide with, without;  ///< with equal substeps: those that `with` asks for
   double cost = 0;           ///< median of the turns' (with − without)/without
   double cost_spread = 0;    ///< half the distance between the quartiles of that
+  /// Without it over the same in kernels that lack the effect's text, less one; NaN where it is no constant
+  /// of theirs, or the program has none.
+  double absent_cost = std::numeric_limits<double>::quiet_NaN();
+  double absent_spread = 0;  ///< half the distance between the quartiles of that
   double toggle_ms = 0;  ///< making the other plan's simulation with the state carried over, pipelines known
   std::string left_out;  ///< why it was not measured; empty when it was
 };

@@ -14,7 +14,13 @@ namespace weft {
 
 class GpuPipelines {
  public:
-  explicit GpuPipelines(gpu::Device& device) : device_(device) {}
+  /// @param lacking  a constant of `integrate` whose effect the kernels shall not even have as text, for the
+  /// benchmark
+  ///                 alone; empty: none
+  explicit GpuPipelines(gpu::Device& device, std::string lacking = "")
+      : device_(device), lacking_(std::move(lacking)) {}
+  /// Whether the program has kernels that lack it: built with WEFT_BENCH_LACKING, or compiled from a folder.
+  static bool can_lack(const std::string& constant);
   /// @param module  path below shaders/, "passes/integrate.comp"
   /// @param name    for messages and debuggers
   std::shared_ptr<const gpu::ComputePipeline> get(const std::string& module, const std::string& name,
@@ -23,7 +29,9 @@ class GpuPipelines {
 
  private:
   using Key = std::pair<std::string, std::vector<std::uint32_t>>;
+  std::string built(const std::string& module) const;
   gpu::Device& device_;
+  std::string lacking_;
   std::map<Key, std::shared_ptr<const gpu::ComputePipeline>> pipelines_;
 };
 
