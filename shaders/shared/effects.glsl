@@ -1,6 +1,6 @@
-// The effects that only change arithmetic, as specialization constants; ids in the order of the
-// declaration in src/passes/integrate.cpp. An effect the scene does not have costs nothing. WEFT_LACKS_… takes
-// an effect's text out: what a build that never had it would take, for `weft bench --effects`.
+// The effects that only change arithmetic, as specialization constants; ids in the order of the declaration
+// in src/passes/integrate.cpp. An effect the scene does not have costs nothing. WEFT_LACKS_… takes one out as
+// text: what a build that never had it would take, for `weft bench --effects`.
 #ifdef WEFT_LACKS_shear
 const bool shear = false;
 #else
