@@ -14,6 +14,8 @@ UPDATES(real4, position_next)  // how far each has moved since
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
 
+layout(constant_id = 0) const bool anisotropic = false;
+
 void main() {
   bool along_i = item < 3u;
   uint colour = item % 3u, nx = params.nx, ny = params.ny;
@@ -25,7 +27,8 @@ void main() {
   uint next = along_i ? 1u : nx;
   if (i >= nx || j >= ny || (along_i ? i + 2u >= nx : j + 2u >= ny)) return;
   bool boundary = along_i ? (j == 0u || j + 1u == ny) : (i == 0u || i + 1u == nx);
-  real compliance = constraints[kConstraintBend + (boundary ? 1u : 0u)].y;
+  uint warp = anisotropic && !along_i ? kConstraintRows : 0u;
+  real compliance = constraints[kConstraintBend + (boundary ? 1u : 0u) + warp].y;
 
   uint pa = j * nx + i, pb = pa + next, pc = pb + next;
   real4 a = position_next[pa], b = position_next[pb], c = position_next[pc];

@@ -15,6 +15,7 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
 
 layout(constant_id = 0) const bool damping = true;
+layout(constant_id = 1) const bool anisotropic = false;
 #include "../shared/dot.glsl"
 
 #include "../shared/spring_colours.glsl"
@@ -59,6 +60,7 @@ void main() {
     bool boundary = along_i ? (s.j == 0u || s.j + 1u == params.ny) : (s.i == 0u || s.i + 1u == params.nx);
     bool far = s.kind == kFlexI || s.kind == kFlexJ;
     row = (far ? kConstraintFlex : kConstraintStructural) + (boundary ? 1u : 0u);
+    if (anisotropic && along_j) row += kConstraintRows;
   }
   pull(s.a, s.b, constraints[row].xyz);
 }

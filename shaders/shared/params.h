@@ -60,7 +60,8 @@ WEFT_REAL_STRUCT(MovedPin) {
 };
 
 // The rows of `constraints`, which XPBD alone has: x = rest [m], y = compliance 1/k [m/N], z = damping time
-// c/k [s]. Structural, flex and bending rows come in pairs: inside, then on a boundary line.
+// c/k [s]. Structural, flex and bending rows come in pairs: inside, then on a boundary line. Where warp and
+// weft differ, as many rows again follow for what lies along j.
 WEFT_CONST uint kConstraintStructural = 0u;
 WEFT_CONST uint kConstraintShear = 2u;
 WEFT_CONST uint kConstraintFlex = 3u;

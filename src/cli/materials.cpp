@@ -12,13 +12,14 @@ MaterialSection read_preset(const std::string& name) {
 }
 
 Exit run_materials(const Options& o) {
-  Table table{{"name", "title", "density_kg_m2", "membrane_n_m", "shear_n_m", "flex", "bend_n_m", "damping_s",
-               "damping_ratio_max", "file"},
+  Table table{{"name", "title", "density_kg_m2", "membrane_warp_n_m", "membrane_weft_n_m", "shear_n_m",
+               "flex", "bend_warp_n_m", "bend_weft_n_m", "damping_s", "damping_ratio_max", "file"},
               {}};
   for (const AssetInfo& asset : list_materials()) {
     const MaterialSection m = read_preset(asset.name);
-    table.rows.push_back({asset.name, asset.title, m.density_kg_m2, m.membrane_n_m, m.shear(), m.flex,
-                          m.bend_n_m, m.damping_s, m.damping_ratio_max, asset.file.string()});
+    table.rows.push_back({asset.name, asset.title, m.density_kg_m2, m.membrane_warp(), m.membrane_weft(),
+                          m.shear(), m.flex, m.bend_warp(), m.bend_weft(), m.damping_s, m.damping_ratio_max,
+                          asset.file.string()});
   }
   print_result(to_text(table, o.format));
   return Exit::ok;

@@ -100,16 +100,17 @@ void find_moved_particles(Model& model) {
 }
 
 std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m, double a, double mass_kg) {
-  const double structural = (1.0 - m.flex) * 0.75 * m.membrane_n_m;
-  const double flex = m.flex * 3.0 * m.membrane_n_m / 16.0;
+  const auto structural = [&](double membrane_n_m) { return (1.0 - m.flex) * 0.75 * membrane_n_m; };
+  const auto flex = [&](double membrane_n_m) { return m.flex * 3.0 * membrane_n_m / 16.0; };
+  const double weft_n_m = m.membrane_weft(), warp_n_m = m.membrane_warp();
   const auto kind = [&](int di, int dj, double k, double rest_m, bool halves) {
     const double cap = 2.0 * m.damping_ratio_max * std::sqrt(k * mass_kg / 2.0);
     return SpringKind{di, dj, k, rest_m, std::min(m.damping_s * k, cap), halves};
   };
   const double diagonal_m = a * std::numbers::sqrt2;
-  return {kind(1, 0, structural, a, true),          kind(0, 1, structural, a, true),
-          kind(1, 1, m.shear(), diagonal_m, false), kind(-1, 1, m.shear(), diagonal_m, false),
-          kind(2, 0, flex, 2.0 * a, true),          kind(0, 2, flex, 2.0 * a, true)};
+  return {kind(1, 0, structural(weft_n_m), a, true), kind(0, 1, structural(warp_n_m), a, true),
+          kind(1, 1, m.shear(), diagonal_m, false),  kind(-1, 1, m.shear(), diagonal_m, false),
+          kind(2, 0, flex(weft_n_m), 2.0 * a, true), kind(0, 2, flex(warp_n_m), 2.0 * a, true)};
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ Model build_model(const Scene& scene) {
   apply_pins(scene, model.grid, model.relative_inverse_mass);
   find_moved_particles(model);
   model.springs = build_springs(scene.material, a, model.interior_mass_kg);
-  model.bend_kappa_n_m = scene.material.bend_n_m / (a * a);
+  model.bend_kappa_n_m = {scene.material.bend_weft() / (a * a), scene.material.bend_warp() / (a * a)};
   model.half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
   for_each_spring(model,
                   [&](const SpringKind&, std::uint32_t, std::uint32_t, double) { ++model.spring_count; });

@@ -50,13 +50,21 @@ struct Model {
   double interior_mass_kg = 0.0;              ///< m0 = rho·a²
   std::vector<double> relative_inverse_mass;  ///< m0/m: 1 inside, 2 edge, 4 corner, 0 pinned; shape [count]
   std::array<SpringKind, kSpringKindCount> springs;  ///< kinds with k = 0 are absent
-  double bend_kappa_n_m = 0.0;                       ///< kappa = B/a² of an interior line [N/m]
-  double half_thickness_m = 0.0;                     ///< of the cloth in contact; 0 without self-collision
-  std::vector<std::uint32_t> moved_pins;             ///< pins with keys, as indices in scene.pins, ascending
+  /// kappa = B/a² of an interior line [N/m]: along i (the weft), along j (the warp).
+  std::array<double, 2> bend_kappa_n_m{};
+  double half_thickness_m = 0.0;               ///< of the cloth in contact; 0 without self-collision
+  std::vector<std::uint32_t> moved_pins;       ///< pins with keys, as indices in scene.pins, ascending
   std::vector<MovedParticle> moved_particles;  ///< ascending; a particle of several pins is the first one's
   std::uint64_t spring_count = 0;              ///< springs that exist and do not join two pinned particles
   StepBound bound;
 
+  bool bends() const { return bend_kappa_n_m[0] > 0.0 || bend_kappa_n_m[1] > 0.0; }
+  /// Whether weft and warp differ in stiffness or rigidity.
+  bool anisotropic() const {
+    return springs[kStructuralI].stiffness_n_m != springs[kStructuralJ].stiffness_n_m ||
+           springs[kFlexI].stiffness_n_m != springs[kFlexJ].stiffness_n_m ||
+           bend_kappa_n_m[0] != bend_kappa_n_m[1];
+  }
   double inverse_mass(std::uint32_t particle) const {
     return relative_inverse_mass[particle] / interior_mass_kg;
   }

@@ -49,7 +49,9 @@ double energy_ratio(const Model& before, const Model& next) {
   for (std::size_t kind = 0; kind < kSpringKindCount; ++kind)
     if (before.springs[kind].stiffness_n_m > 0.0)
       ratio = std::max(ratio, next.springs[kind].stiffness_n_m / before.springs[kind].stiffness_n_m);
-  if (before.bend_kappa_n_m > 0.0) ratio = std::max(ratio, next.bend_kappa_n_m / before.bend_kappa_n_m);
+  for (std::size_t along = 0; along < 2; ++along)
+    if (before.bend_kappa_n_m[along] > 0.0)
+      ratio = std::max(ratio, next.bend_kappa_n_m[along] / before.bend_kappa_n_m[along]);
   return ratio * std::max(1.0, before.interior_mass_kg / next.interior_mass_kg);
 }
 

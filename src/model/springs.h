@@ -48,15 +48,15 @@ void for_each_spring(const Model& model, Visit&& visit) {
 /// Calls visit(minus, middle, plus, kappa) for every straight triple; nothing without bending.
 template <class Visit>
 void for_each_triple(const Model& model, Visit&& visit) {
-  if (model.bend_kappa_n_m <= 0.0) return;
+  if (!model.bends()) return;
   const Grid& grid = model.grid;
   for (std::uint32_t j = 0; j < grid.ny; ++j) {
     for (std::uint32_t i = 0; i < grid.nx; ++i) {
       const std::uint32_t middle = grid.index(i, j);
       if (i > 0 && i + 1 < grid.nx)
-        visit(middle - 1, middle, middle + 1, model.bend_kappa_n_m * line_weight(j, grid.ny));
+        visit(middle - 1, middle, middle + 1, model.bend_kappa_n_m[0] * line_weight(j, grid.ny));
       if (j > 0 && j + 1 < grid.ny)
-        visit(middle - grid.nx, middle, middle + grid.nx, model.bend_kappa_n_m * line_weight(i, grid.nx));
+        visit(middle - grid.nx, middle, middle + grid.nx, model.bend_kappa_n_m[1] * line_weight(i, grid.nx));
     }
   }
 }

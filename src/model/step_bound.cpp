@@ -25,7 +25,7 @@ class Gather {
       add_spring(kind, static_cast<int>(i), static_cast<int>(j), kind.di, kind.dj, own, sums);
       add_spring(kind, static_cast<int>(i), static_cast<int>(j), -kind.di, -kind.dj, own, sums);
     }
-    if (model_.bend_kappa_n_m > 0.0) {
+    if (model_.bends()) {
       add_triples(i, j, true, own, sums);
       add_triples(i, j, false, own, sums);
     }
@@ -52,8 +52,8 @@ class Gather {
   /// The up to three triples of one line through (i, j): those centred one before, here, and one after.
   void add_triples(std::uint32_t i, std::uint32_t j, bool along_i, double own, RowSums& sums) const {
     const std::uint32_t here = along_i ? i : j, count = along_i ? grid_.nx : grid_.ny;
-    const double kappa =
-        model_.bend_kappa_n_m * (along_i ? line_weight(j, grid_.ny) : line_weight(i, grid_.nx));
+    const double kappa = along_i ? model_.bend_kappa_n_m[0] * line_weight(j, grid_.ny)
+                                 : model_.bend_kappa_n_m[1] * line_weight(i, grid_.nx);
     const auto at = [&](std::uint32_t place) { return along_i ? weight_of(place, j) : weight_of(i, place); };
     for (std::uint32_t middle = here > 0 ? here - 1 : 0; middle <= here + 1; ++middle) {
       if (middle == 0 || middle + 1 >= count) continue;

@@ -21,7 +21,7 @@ SpringRows<double> spring_rows_exact(const Model& model) {
   for (std::size_t direction = 0; direction < 2; ++direction) {
     for (std::size_t boundary = 0; boundary < 2; ++boundary) {
       const double weight = boundary == 1 ? 0.5 : 1.0;
-      const double kappa = weight * model.bend_kappa_n_m;
+      const double kappa = weight * model.bend_kappa_n_m[direction];
       const std::size_t row = direction * 2 + boundary;
       for (std::size_t triples = 0; triples < 3; ++triples)
         rows.structural[row * 3 + triples] =

@@ -19,8 +19,8 @@ Constants integrate_constants(const Model& m) {
       std::ranges::any_of(m.springs, [](const SpringKind& kind) { return kind.damping_n_s_m > 0.0; });
   const std::array<std::uint32_t, kIntegrateConstantCount> values{
       positive(m.springs[kShearDown].stiffness_n_m),
-      positive(m.springs[kFlexI].stiffness_n_m),
-      positive(m.bend_kappa_n_m),
+      positive(std::max(m.springs[kFlexI].stiffness_n_m, m.springs[kFlexJ].stiffness_n_m)),
+      m.bends(),
       damping,
       air,
       wind,

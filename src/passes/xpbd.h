@@ -9,9 +9,14 @@
 namespace weft {
 
 /// Rest length [m], compliance [m/N] and damping time c/k [s] of each kind, in the order of
-/// shared/params.h "constraints"; zeros where the scene has none of a kind.
+/// shared/params.h "constraints", along i and then along j; zeros where the scene has none of a kind.
 template <class T>
-using ConstraintRows = std::array<glm::vec<4, T>, shared::kConstraintRows>;
+using ConstraintRows = std::array<glm::vec<4, T>, 2 * shared::kConstraintRows>;
+
+/// From the rows along i to those along j, which are only there when they differ.
+inline std::uint32_t constraint_shift(const Model& model) {
+  return model.anisotropic() ? shared::kConstraintRows : 0;
+}
 
 /// In double, before their one rounding.
 ConstraintRows<double> constraint_rows_exact(const Model& model);

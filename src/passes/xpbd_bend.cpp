@@ -16,10 +16,12 @@ struct TripleColour {
 Range item_domain(const Model& m, std::uint32_t item) {
   const TripleColour triples = TripleColour::of(item);
   const std::uint32_t length = triples.along_i ? m.grid.nx : m.grid.ny;
-  if (m.bend_kappa_n_m <= 0.0 || length < triples.colour + 3) return {};
+  if (m.bend_kappa_n_m[triples.along_i ? 0 : 1] <= 0.0 || length < triples.colour + 3) return {};
   const std::uint32_t count = (length - triples.colour) / 3;
   return triples.along_i ? Range{.x = count, .y = m.grid.ny} : Range{.x = m.grid.nx, .y = count};
 }
+
+Constants constants(const Model& m) { return m.anisotropic() ? Constants{{"anisotropic", 1}} : Constants{}; }
 
 template <class T>
 Vec3<T> second_difference(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
@@ -57,7 +59,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       for (std::uint32_t i = 0; i + 2 * di < grid.nx; ++i) {
         if ((triples.along_i ? i : j) % 3 != triples.colour) continue;
         const std::uint32_t line = triples.along_i ? j : i, lines = triples.along_i ? grid.ny : grid.nx;
-        const std::size_t row = shared::kConstraintBend + (line == 0 || line + 1 == lines ? 1 : 0);
+        const std::size_t row = shared::kConstraintBend + (line == 0 || line + 1 == lines ? 1 : 0) +
+                                (triples.along_i ? 0 : constraint_shift(context.model));
         const std::uint32_t a = grid.index(i, j), b = grid.index(i + di, j + dj),
                             c = grid.index(i + 2 * di, j + 2 * dj);
         straighten(rows[row].y, step_s, inverse_mass,
@@ -74,6 +77,7 @@ const Pass xpbd_bend{
     .name = "xpbd_bend",
     .about = "straightens the bending triples of one colour",
     .domain = whole_cloth,
+    .constants = constants,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .item_domain = item_domain,

@@ -15,30 +15,41 @@ ConstraintRows<double> constraint_rows_exact(const Model& model) {
     return glm::dvec4(kind.rest_m, 1.0 / (weight * kind.stiffness_n_m),
                       kind.damping_n_s_m / kind.stiffness_n_m, 0.0);
   };
-  rows[shared::kConstraintStructural] = spring(kStructuralI, 1.0);
-  rows[shared::kConstraintStructural + 1] = spring(kStructuralI, 0.5);
-  rows[shared::kConstraintShear] = spring(kShearDown, 1.0);
-  rows[shared::kConstraintFlex] = spring(kFlexI, 1.0);
-  rows[shared::kConstraintFlex + 1] = spring(kFlexI, 0.5);
-  if (model.bend_kappa_n_m > 0.0) {
-    rows[shared::kConstraintBend].y = 1.0 / model.bend_kappa_n_m;
-    rows[shared::kConstraintBend + 1].y = 2.0 / model.bend_kappa_n_m;
+  for (std::uint32_t along = 0; along < 2; ++along) {
+    const std::uint32_t from = along * shared::kConstraintRows;
+    const SpringName structural = along == 0 ? kStructuralI : kStructuralJ,
+                     flex = along == 0 ? kFlexI : kFlexJ;
+    rows[from + shared::kConstraintStructural] = spring(structural, 1.0);
+    rows[from + shared::kConstraintStructural + 1] = spring(structural, 0.5);
+    rows[from + shared::kConstraintShear] = spring(kShearDown, 1.0);
+    rows[from + shared::kConstraintFlex] = spring(flex, 1.0);
+    rows[from + shared::kConstraintFlex + 1] = spring(flex, 0.5);
+    if (model.bend_kappa_n_m[along] > 0.0) {
+      rows[from + shared::kConstraintBend].y = 1.0 / model.bend_kappa_n_m[along];
+      rows[from + shared::kConstraintBend + 1].y = 2.0 / model.bend_kappa_n_m[along];
+    }
   }
   return rows;
 }
 
 namespace {
 
-Constants constants(const Model& m) { return {integrate_constants(m)[kHasDamping]}; }
+Constants constants(const Model& m) {
+  Constants all{integrate_constants(m)[kHasDamping]};
+  if (m.anisotropic()) all.push_back({"anisotropic", 1});
+  return all;
+}
 
 /// The row of a spring's coefficients that begins at (i, j).
-std::size_t row_of(const Grid& grid, SpringName kind, std::uint32_t i, std::uint32_t j) {
+std::size_t row_of(const Model& model, SpringName kind, std::uint32_t i, std::uint32_t j) {
+  const Grid& grid = model.grid;
+  const std::size_t warp = constraint_shift(model);
   const bool on_j_edge = j == 0 || j + 1 == grid.ny, on_i_edge = i == 0 || i + 1 == grid.nx;
   switch (kind) {
     case kStructuralI: return shared::kConstraintStructural + (on_j_edge ? 1 : 0);
-    case kStructuralJ: return shared::kConstraintStructural + (on_i_edge ? 1 : 0);
+    case kStructuralJ: return shared::kConstraintStructural + warp + (on_i_edge ? 1 : 0);
     case kFlexI: return shared::kConstraintFlex + (on_j_edge ? 1 : 0);
-    case kFlexJ: return shared::kConstraintFlex + (on_i_edge ? 1 : 0);
+    case kFlexJ: return shared::kConstraintFlex + warp + (on_i_edge ? 1 : 0);
     default: return shared::kConstraintShear;
   }
 }
@@ -85,7 +96,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const SpringColour colour = SpringColour::of(context.item);
   parallel_rows(model.grid.ny, model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for_each_spring_of(model.grid, colour, begin, end, [&](const ColouredSpring& spring) {
-      const auto& row = rows[row_of(model.grid, colour.kind, spring.i, spring.j)];
+      const auto& row = rows[row_of(model, colour.kind, spring.i, spring.j)];
       glm::vec<4, T>&a = moved[spring.a], &b = moved[spring.b];
       const Vec3<T> d0 = xyz(start[spring.b]) - xyz(start[spring.a]);
       if (damped)

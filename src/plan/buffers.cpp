@@ -7,6 +7,7 @@
 #include "passes/collision.h"
 #include "passes/passes.h"
 #include "passes/tables.h"
+#include "passes/xpbd.h"
 #include "plan/plan.h"
 
 namespace weft {
@@ -23,7 +24,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
   switch (id) {
     case BufferId::params: return 1;
     case BufferId::compensation: return 2 * std::uint64_t{model.grid.count()};
-    case BufferId::constraints: return shared::kConstraintRows;
+    case BufferId::constraints: return shared::kConstraintRows + constraint_shift(model);
     case BufferId::strain_limits: return shared::kLimitRows;
     case BufferId::substeps: return std::uint64_t{substep_row_capacity(rows)} * substep_row_stride(model);
     case BufferId::collision: return 1;

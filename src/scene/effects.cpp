@@ -19,9 +19,9 @@ double far_below_m(const Scene& scene) { return scene.cloth.center_m.y - kFar_m;
 constexpr std::array kEffectList{
     Effect{.name = "bend",
            .needs = "",
-           .add = [](Scene& s) { s.material.bend_n_m = 2e-5; },
-           .remove = [](Scene& s) { s.material.bend_n_m = 0.0; },
-           .present = [](const Scene& s) { return s.material.bend_n_m > 0.0; }},
+           .add = [](Scene& s) { s.material.set_bend(2e-5); },
+           .remove = [](Scene& s) { s.material.set_bend(0.0); },
+           .present = [](const Scene& s) { return s.material.bends(); }},
     Effect{.name = "damping",
            .needs = "",
            .add = [](Scene& s) { s.material.damping_s = 1e-4; },

@@ -15,6 +15,16 @@ inline void set_shear(Scene& scene, std::size_t, const ParameterValue& value) {
   scene.material.shear_n_m = std::get<double>(value);
 }
 
+// What a direction has: its own value, or the one of both.
+template <auto value, auto field>
+constexpr Parameter direction_row(Parameter parameter) {
+  parameter.get = [](const Scene& scene, std::size_t) -> ParameterValue { return (scene.material.*value)(); };
+  parameter.set = [](Scene& scene, std::size_t, const ParameterValue& number) {
+    scene.material.*field = std::get<double>(number);
+  };
+  return parameter;
+}
+
 inline ParameterValue get_sphere_keys(const Scene& scene, std::size_t item) {
   return scene.spheres[item].keys;
 }

@@ -34,14 +34,24 @@ struct MaterialSection {
   std::string preset;  ///< name in assets/materials, empty when none
   double density_kg_m2 = 0.2;
   double membrane_n_m = 1000.0;
-  std::optional<double> shear_n_m;  ///< absent: 3/8 of membrane (isotropic, Poisson 1/3)
-  double flex = 0.25;               ///< share of the membrane stiffness that the flex springs carry
-  double bend_n_m = 0.0;            ///< bending rigidity B [N·m]
+  std::optional<double> shear_n_m;  ///< absent: 3/8 of membrane (isotropic, Poisson 1/3), the mean of both
+  std::optional<double> membrane_warp_n_m, membrane_weft_n_m;  ///< absent: membrane
+  double flex = 0.25;     ///< share of the membrane stiffness that the flex springs carry
+  double bend_n_m = 0.0;  ///< bending rigidity B [N·m]
+  std::optional<double> bend_warp_n_m, bend_weft_n_m;  ///< absent: bend
   double damping_s = 1e-4;
   double damping_ratio_max = 0.1;
   double strain_limit = 0.0;  ///< largest elongation of structural and shear springs over their rest; 0: none
 
-  double shear() const { return shear_n_m.value_or(0.375 * membrane_n_m); }
+  // The weft runs along the width (i), the warp along the height (j).
+  double membrane_weft() const { return membrane_weft_n_m.value_or(membrane_n_m); }
+  double membrane_warp() const { return membrane_warp_n_m.value_or(membrane_n_m); }
+  double shear() const { return shear_n_m.value_or(0.375 * (0.5 * (membrane_weft() + membrane_warp()))); }
+  double bend_weft() const { return bend_weft_n_m.value_or(bend_n_m); }
+  double bend_warp() const { return bend_warp_n_m.value_or(bend_n_m); }
+  bool bends() const { return bend_weft() > 0.0 || bend_warp() > 0.0; }
+  /// One rigidity in both directions [N·m].
+  void set_bend(double n_m) { bend_n_m = n_m, bend_warp_n_m = bend_weft_n_m = std::nullopt; }
 };
 
 struct PinSection {

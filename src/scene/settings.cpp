@@ -122,6 +122,23 @@ void Draft::set(const Target& target, std::string_view key, const toml::node& no
                 refused_text(*parameter, node), rule, nearest_word(*parameter, node));
   parameter->set(scene, target.item, *value);
   places_[key_id(target, key)] = place;
+  if (target.section == "material") yield_preset(key);
+}
+
+/// A scene's `membrane` or `bend` overrides what its preset says of warp and weft.
+void Draft::yield_preset(std::string_view key) {
+  MaterialSection& material = scene.material;
+  const auto drop = [&](std::string_view direction, std::optional<double>& value) {
+    if (preset_directions_.erase(std::string(direction)) > 0) value.reset();
+  };
+  if (key == "membrane") {
+    drop("membrane_warp", material.membrane_warp_n_m);
+    drop("membrane_weft", material.membrane_weft_n_m);
+  } else if (key == "bend") {
+    drop("bend_warp", material.bend_warp_n_m);
+    drop("bend_weft", material.bend_weft_n_m);
+  }
+  preset_directions_.erase(std::string(key));  // given by the scene itself
 }
 
 void Draft::note_section(const Target& target, const Place& place) {
@@ -153,6 +170,7 @@ void Draft::take_preset(const std::string& name, const Place& place) {
     const std::string file = material.file.string();
     const toml::table table = parse_toml(read_toml_file(material.file), file);
     scene.material = {};
+    preset_directions_.clear();
     for (const auto& [key, node] : in_file_order(table)) {
       if (*key == "title" || *key == "source") continue;
       const Place line = fmt::format("{}:{}", file, key->source().begin.line);
@@ -160,6 +178,8 @@ void Draft::take_preset(const std::string& name, const Place& place) {
         throw error(Exit::usage, "{}: a material cannot name another; write its keys", line);
       set({"material"}, key->str(), *node, line);
     }
+    for (const char* key : {"membrane_warp", "membrane_weft", "bend_warp", "bend_weft"})
+      if (table.contains(key)) preset_directions_.insert(key);
     scene.material.preset = name;
     return;
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,7 +52,10 @@ class Draft {
   void take_preset(const std::string& name, const Place& place);
 
  private:
+  void yield_preset(std::string_view key);
+
   std::map<std::string, Place, std::less<>> places_;
+  std::set<std::string, std::less<>> preset_directions_;  ///< of warp and weft, that the preset gave
 };
 
 /// "spheres.0.radius", or "material.density": how messages and `--set` name a key.

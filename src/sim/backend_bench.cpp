@@ -78,7 +78,8 @@ class Contender {
   double pairs_a_particle() const {
     const Model& model = simulation_->model();
     const bool shear = model.springs[kShearDown].stiffness_n_m > 0.0;
-    const bool two_apart = model.springs[kFlexI].stiffness_n_m > 0.0 || model.bend_kappa_n_m > 0.0;
+    const bool two_apart = model.springs[kFlexI].stiffness_n_m > 0.0 ||
+                           model.springs[kFlexJ].stiffness_n_m > 0.0 || model.bends();
     return 2.0 + (shear ? 2.0 : 0.0) + (two_apart ? 2.0 : 0.0);
   }
 

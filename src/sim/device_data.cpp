@@ -55,7 +55,8 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
     if (id == BufferId::constraints) {
       ConstraintRows<T> constraints = constraint_rows<T>(model);
       perturbation.apply(constraints);
-      return bytes_of(std::span<const glm::vec<4, T>>(constraints));
+      const std::size_t count = element_count(id, model, plan.row_count());
+      return bytes_of(std::span<const glm::vec<4, T>>(constraints).first(count));
     }
     WEFT_ASSERT(id == BufferId::params);
     auto params = make_params<T>(model, energy_share_s2_m2);

@@ -33,9 +33,11 @@ bool moves_the_cloth(const Parameter& row) {
 
 /// The value with which a key says that its effect is not there; scenes without it keep the words they had
 /// before the key came.
-std::optional<ParameterValue> absent_value(const Parameter& row) {
+std::optional<ParameterValue> absent_value(const Scene& scene, const Parameter& row) {
   if (row.kind == ParameterKind::keys) return MotionKeys{};
   if (row.section == "material" && row.key == "strain_limit") return 0.0;
+  if (row.key.starts_with("membrane_")) return scene.material.membrane_n_m;
+  if (row.key.starts_with("bend_")) return scene.material.bend_n_m;
   return std::nullopt;
 }
 
@@ -46,7 +48,7 @@ std::string canonical_scene(const Scene& scene) {
   for (const Parameter& row : parameters()) {
     if (!moves_the_cloth(row) || !has_section(scene, row.section)) continue;
     for (std::size_t item = 0; item < item_count(scene, row.section); ++item) {
-      if (row.get(scene, item) == absent_value(row)) continue;
+      if (row.get(scene, item) == absent_value(scene, row)) continue;
       text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key,
                           std::visit(ExactText{}, row.get(scene, item)));
     }

@@ -62,16 +62,29 @@ bool resolution_slider(Scene& scene, PanelWishes& wishes) {
   return changed;
 }
 
+/// One slider, or one a direction where the material tells warp and weft apart.
+bool membrane_sliders(Scene& scene) {
+  if (!scene.material.membrane_warp_n_m && !scene.material.membrane_weft_n_m)
+    return row(scene, "material", "membrane", "membrane");
+  const bool warp = row(scene, "material", "membrane_warp", "membrane, warp");
+  return row(scene, "material", "membrane_weft", "membrane, weft") || warp;
+}
+
 /// Bending may be switched off altogether: 0 is below a logarithmic slider's end.
 bool bending_slider(Scene& scene) {
-  bool on = scene.material.bend_n_m > 0.0, changed = false;
+  bool on = scene.material.bends(), changed = false;
   if (ImGui::Checkbox("##bend", &on)) {
-    scene.material.bend_n_m = on ? 1e-5 : 0.0;
+    scene.material.set_bend(on ? 1e-5 : 0.0);
     changed = true;
   }
   tooltip("whether the cloth resists bending");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.x);
+  const MaterialSection& m = scene.material;
+  if (on && (m.bend_warp_n_m || m.bend_weft_n_m)) {
+    changed |= row(scene, "material", "bend_warp", "bending, warp");
+    return row(scene, "material", "bend_weft", "bending, weft") || changed;
+  }
   if (on) return row(scene, "material", "bend", "bending") || changed;
   ImGui::TextDisabled("bending is off");
   return changed;
@@ -190,7 +203,7 @@ void Panels::time_controls(const RunningScene& running, PanelWishes& wishes) {
 
 void Panels::quick_sliders(Scene& scene, bool& changed, const PanelFacts& facts, PanelWishes& wishes) {
   changed |= resolution_slider(scene, wishes);
-  changed |= row(scene, "material", "membrane", "membrane");
+  changed |= membrane_sliders(scene);
   changed |= row(scene, "material", "shear", "shear");
   changed |= bending_slider(scene);
   cost(facts, "bend");

@@ -88,6 +88,8 @@ Model random_model(std::mt19937_64& random, double mass_decades) {
   scene.material.shear_n_m = unit(random) < 0.3 ? 0.0 : 1000.0 * unit(random);
   scene.material.flex = unit(random) < 0.3 ? 0.0 : 0.5 * unit(random);
   scene.material.bend_n_m = unit(random) < 0.3 ? 0.0 : std::pow(10.0, -3 + 4 * unit(random));
+  if (unit(random) < 0.5) scene.material.membrane_warp_n_m = std::pow(10.0, 4 * unit(random));
+  if (unit(random) < 0.5) scene.material.bend_weft_n_m = std::pow(10.0, -3 + 4 * unit(random));
   scene.material.damping_ratio_max = 1.0;
   if (unit(random) < 0.5) scene.pins = {{{0.0, 0.0}, 0.3}};
   const Model model = build_model(scene);
