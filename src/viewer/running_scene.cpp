@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "model/carry.h"
 #include "model/measures.h"
-#include "viewer/carry.h"
 
 namespace weft {
 namespace {

@@ -1,5 +1,5 @@
 // Separable Catmull–Rom interpolation over the grid, and the pins' exact places.
-#include "viewer/carry.h"
+#include "model/carry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Carrying a cloth over to another grid: what the interpolation must reproduce exactly, and how far off it
 // may be elsewhere.
-#include "viewer/carry.h"
+#include "model/carry.h"
 
 #include <gtest/gtest.h>
 
