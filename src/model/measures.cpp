@@ -70,6 +70,18 @@ Stretch stretch(const Model& model, const State& state) {
   return {*std::max_element(p99, elongation.end()), *p99};
 }
 
+DampingRatios damping_ratios(const Model& model) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  DampingRatios ratios{kNone, 0.0};
+  for (const SpringKind& kind : model.springs) {
+    if (kind.stiffness_n_m <= 0.0) continue;
+    const double ratio =
+        kind.damping_n_s_m / (2.0 * std::sqrt(kind.stiffness_n_m * model.interior_mass_kg / 2.0));
+    ratios = {std::min(ratios.least, ratio), std::max(ratios.largest, ratio)};
+  }
+  return ratios.least == kNone ? DampingRatios{kNone, kNone} : ratios;
+}
+
 glm::dvec3 linear_momentum(const Model& model, const State& state) {
   glm::dvec3 sum(0.0);
   for_each_free(model, [&](std::uint32_t p, double mass_kg) { sum += mass_kg * state.velocity[p]; });

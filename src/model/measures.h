@@ -18,6 +18,15 @@ struct Stretch {
 };
 Stretch stretch(const Model&, const State&);
 
+/// Least and largest damping ratio c/(2·√(k·m₀/2)) of the kinds of springs that exist; infinite without any.
+struct DampingRatios {
+  double least = 0, largest = 0;
+};
+DampingRatios damping_ratios(const Model&);
+/// A cloth of this damping ratio loses more than it gains where neighbours fly over one another within a
+/// substep (docs/stability.md "Where no bound holds").
+inline constexpr double kDampingRatioEnough = 0.03;
+
 glm::dvec3 linear_momentum(const Model&, const State&);
 glm::dvec3 angular_momentum(const Model&, const State&);
 

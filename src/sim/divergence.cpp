@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/measures.h"
 #include "shared/watch.h"
 
 namespace weft {
@@ -35,6 +36,16 @@ std::string likely_cause(const Divergence& found, const Model& model, const Plan
         "exceeds; it needs at least {:.0f} (--substeps auto follows the bound)",
         solver.name, step_max_s, found.frame_s, found.substeps, std::ceil(found.frame_s / step_max_s));
   if (found.frame == 0) return "the state was not sound when the run began";
+  const double ratio = damping_ratios(model).largest;
+  if (ratio < kDampingRatioEnough)
+    return fmt::format(
+        "the step is within the solver's stability bound, but no spring has a damping ratio above {:.2g}, "
+        "and "
+        "where "
+        "cloth is so crushed that neighbours fly over one another within a substep, less than {} lets it "
+        "gain "
+        "energy (raise material.damping and material.damping_ratio_max, or substeps)",
+        ratio, kDampingRatioEnough);
   return "the step is within the solver's stability bound, so that the scene is to be looked at: forces or "
          "speeds beyond what float32 holds, or colliders that crush the cloth";
 }

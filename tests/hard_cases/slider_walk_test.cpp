@@ -1,0 +1,147 @@
+// Moves sliders of the parameter table at random while a cloth runs, as a hand at the window would, and types
+// a number from the whole allowed range now and then: the default solver stays finite at every frame's end.
+// WEFT_PROPERTY_WALKS=10000 walks more often than the quick tests.
+#include <gtest/gtest.h>
+
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "core/error.h"
+#include "hard_cases/draw.h"
+#include "model/carry.h"
+#include "model/measures.h"
+#include "scene/reader.h"
+#include "sim/simulation.h"
+
+namespace weft::hard {
+namespace {
+
+constexpr int kFramesPerWalk = 60;
+constexpr std::uint32_t kWalkResolutionMost = 24;
+
+/// Sliders that change the cloth or what acts on it. Substeps are left on automatic, and the reader's limits
+/// of grids belong to the reader's tests.
+bool walks(const Parameter& parameter) {
+  const bool numeric = parameter.kind != ParameterKind::word && parameter.kind != ParameterKind::keys;
+  return numeric && parameter.section != "solver" && parameter.section != "expect" &&
+         parameter.section != "" && parameter.slider_maximum > parameter.slider_minimum;
+}
+
+/// A position of the slider: log-uniform, over five decades where it begins at 0, on both sides where it has
+/// two.
+double slider_position(const Parameter& parameter) {
+  const double most = parameter.slider_maximum;
+  if (parameter.slider_minimum > 0.0) return log_uniform(parameter.slider_minimum, most);
+  if (chance(0.15)) return 0.0;
+  const double size = log_uniform(1e-5 * most, most);
+  return parameter.slider_minimum < 0.0 && chance(0.5) ? -size : size;
+}
+
+double drawn_value(const Parameter& parameter, bool typed) {
+  if (parameter.kind == ParameterKind::integer)
+    return std::round(log_uniform(parameter.minimum, kWalkResolutionMost));
+  return typed ? number(parameter) : slider_position(parameter);
+}
+
+void move_slider(Scene& scene) {
+  std::vector<const Parameter*> there;
+  for (const Parameter& parameter : parameters())
+    if (walks(parameter) && item_count(scene, parameter.section) > 0) there.push_back(&parameter);
+  const Parameter& parameter = *there[static_cast<std::size_t>(whole(0, static_cast<int>(there.size()) - 1))];
+  const auto item =
+      static_cast<std::size_t>(whole(0, static_cast<int>(item_count(scene, parameter.section)) - 1));
+  const bool typed = chance(0.1);
+  if (parameter.kind == ParameterKind::vec3)
+    parameter.set(scene, item,
+                  glm::dvec3(drawn_value(parameter, typed), drawn_value(parameter, typed),
+                             drawn_value(parameter, typed)));
+  else
+    parameter.set(scene, item, drawn_value(parameter, typed));
+}
+
+/// Switches an effect on or off.
+void flip_switch(Scene& scene) {
+  switch (whole(0, 4)) {
+    case 0: scene.gravity ? scene.gravity.reset() : void(scene.gravity.emplace()); break;
+    case 1:
+      scene.wind.reset();
+      scene.air ? scene.air.reset() : void(scene.air.emplace(AirSection{0.1}));
+      break;
+    case 2:
+      if (!scene.air) scene.air.emplace(AirSection{0.1});
+      scene.wind ? scene.wind.reset() : void(scene.wind.emplace(WindSection{{0.0, 0.0, 3.0}, 0.5, 1.0}));
+      break;
+    case 3: scene.floor ? scene.floor.reset() : void(scene.floor.emplace(FloorSection{0.1, 0.3})); break;
+    default:
+      if (scene.spheres.empty())
+        scene.spheres.push_back({.center_m = {0.1, 0.3, 0.0}, .radius_m = 0.2});
+      else
+        scene.spheres.clear();
+  }
+}
+
+/// A cloth in the middle of a walk.
+struct Walker {
+  Scene scene;
+  Model model;
+  std::unique_ptr<Simulation> simulation;
+  std::string told;  ///< what was done, for a failure's report
+
+  /// Runs on with another scene, or with the one before where the model refuses it, as the window does.
+  void adopt(const Scene& next) {
+    try {
+      Model made = build_model(next);
+      const Step step = step_of(made);
+      auto other = make_cpu_simulation(made, find_solver("leapfrog"), "f32");
+      if (simulation) other->write(carry_state(model, simulation->read(), made));
+      scene = next;
+      model = std::move(made);
+      simulation = std::move(other);
+      frame = step;
+    } catch (const Error&) {
+      told += " (refused)";
+    }
+  }
+  Step frame{};
+};
+
+std::string differences(const Scene& before, const Scene& after) {
+  std::string text;
+  for (const Parameter& parameter : parameters())
+    for (std::size_t item = 0; item < item_count(after, parameter.section); ++item) {
+      const std::string now = value_text(parameter.get(after, item));
+      if (item < item_count(before, parameter.section) && value_text(parameter.get(before, item)) == now)
+        continue;
+      text += fmt::format(" {}.{}={}", parameter.section, parameter.key, now);
+    }
+  return text;
+}
+
+void walk_stays_finite() {
+  Walker walker;
+  const std::string start = std::to_string(whole(1, 6));
+  walker.adopt(load_scene(find_scene(start),
+                          {{"cloth.resolution=16", "pins=[{at=[0,0],radius=0.05},{at=[1,0],radius=0.05}]"}})
+                   .scene);
+  walker.told = "scene " + start;
+  for (int f = 0; f < kFramesPerWalk; ++f) {
+    if (chance(0.7)) {
+      Scene next = walker.scene;
+      next.solver.substeps = 0;
+      chance(0.1) ? flip_switch(next) : move_slider(next);
+      walker.told += fmt::format("\n{}:{}", f, differences(walker.scene, next));
+      walker.adopt(next);
+    }
+    walker.simulation->advance(walker.frame.frame_s, walker.frame.substeps);
+    const std::optional<Divergence> found = walker.simulation->divergence();
+    if (found) RC_FAIL(what_happened(*found, walker.model) + " after " + walker.told);
+    RC_ASSERT(all_finite(walker.simulation->read()));
+  }
+}
+
+TEST(SliderWalks, StayFiniteAtEveryFrame) {
+  EXPECT_TRUE(holds("any walk", 60, "WEFT_PROPERTY_WALKS", walk_stays_finite));
+}
+
+}  // namespace
+}  // namespace weft::hard
