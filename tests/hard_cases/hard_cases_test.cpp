@@ -2,6 +2,7 @@
 // what contact, energy and momentum promise holds. The cases that take long, and all other solvers, are in
 // long_hard_cases_test.cpp.
 #include "hard_cases/judge.h"
+#include "sim/native_simulation.h"
 
 namespace weft::hard {
 namespace {
@@ -11,6 +12,14 @@ class HardCasesTest : public JudgedTest {};
 TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheReference) {
   for (const HardCase& c : hard_cases())
     if (c.quick) judge_default(c, run_hard_case(c, find_solver("leapfrog"), on_cpu()), "CPU");
+}
+
+TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheVectorUnits) {
+  const MakeSimulation natively = [](const Model& model, const Solver& solver) {
+    return make_native_simulation(model, solver, "f32");
+  };
+  for (const HardCase& c : hard_cases())
+    if (c.quick) judge_default(c, run_hard_case(c, find_solver("leapfrog"), natively), "native");
 }
 
 TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheDeviceWithTheSameBits) {

@@ -1,7 +1,9 @@
-// Writes docs/stability.md: every hard case with every solver on the CPU reference and on a device, and a
-// picture of where the default solver left the cloth. Usage: weft_stability DOCS_FOLDER DATE
+// Writes docs/stability.md: every hard case with every solver on the CPU reference, natively and on a device,
+// and a sheet of pictures of where the default solver left the cloth. What a finished case came to is kept in
+// PARTS_FOLDER, so that an interrupted run goes on. Usage: weft_stability DOCS_FOLDER PARTS_FOLDER DATE
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -11,6 +13,9 @@
 #include "render/image.h"
 #include "render/offscreen.h"
 #include "sim/gpu_simulation.h"
+#include "sim/native_simulation.h"
+#include "stability/crush_table.h"
+#include "stability/head.h"
 #include "support/hard_cases.h"
 
 namespace weft::hard {
@@ -18,31 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHead = R"(# What the hard cases come to
-
-`scripts/stability` writes this page: scenes made to break a simulation, with every solver of `weft solvers`,
-on the CPU reference and on a device, at the automatic number of substeps. A solver added to the list appears
-here by itself. tests/hard_cases holds the default solver, leapfrog, to its promises: every case finite,
-nobody inside a single collider by more than 1 % of its radius, nobody through it, no energy out of nothing, a
-free cloth's momentum at round-off.
-
-*detected*: the run stopped at that frame, because the state was no longer sound
-([physics.md](physics.md) "Divergence"); the columns then hold up to the frame before. *stretch*: most of a
-structural spring at any frame's end. *energy*: most above the start's, over what was stored or could fall at
-the start; only where nothing moves and no wind blows. *inside*: deepest in a sphere, of its radius, or below
-the floor, of the cloth's width. *tunnelled*: particles that went through a collider from one frame's end to
-the next. *time*: of the run, reading every frame back included, on a busy machine.
-
-**The wedge.** Where two colliders overlap, or one and the floor, contact serves one after the other. A
-particle may then be inside one by as much as the other pushes it back in; it is pushed out as soon as
-one lets go, and stays finite meanwhile.
-
-**Where no bound holds.** The largest stable step bounds every linear oscillation. Where springs are stretched
-or pressed to several times their length, particles fly over a whole spring in one substep, and a cloth
-without any damping can gain energy all the same: a ribbon of two columns, for which the bound is sharp,
-started at 4.7 times its length, did at the automatic 68 substeps a frame and did not at 100. That is
-detected, never hidden; damping or more substeps cure it.
-)";
+constexpr std::uint32_t kTileWidth = 160, kTileHeight = 120, kColumns = 6;
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "-";
@@ -57,65 +38,111 @@ std::string row(const HardCase& c, const Solver& solver, const std::string& devi
                      percent(o.inside), o.tunnelled, o.wall_s);
 }
 
+/// Looks at the whole cloth from in front and a little above.
+Camera camera_for(const State& state) {
+  Camera camera;
+  glm::dvec3 low = state.position[0], high = low;
+  for (const glm::dvec3& x : state.position) {
+    low = glm::min(low, x);
+    high = glm::max(high, x);
+  }
+  camera.target_m = 0.5 * (low + high);
+  camera.distance_m = std::max(0.5, 1.4 * glm::length(high - low));
+  camera.yaw_rad = 0.5;
+  camera.pitch_rad = 0.25;
+  return camera;
+}
+
 class Page {
  public:
-  explicit Page(fs::path folder) : folder_(std::move(folder)), device_({}) {
+  Page(fs::path docs, fs::path parts) : docs_(std::move(docs)), parts_(std::move(parts)), device_({}) {
     pipelines_ = std::make_shared<GpuPipelines>(device_);
-    fs::create_directories(folder_ / "stability");
+    fs::create_directories(parts_);
+    fs::create_directories(docs_ / "images");
   }
-  std::string write(const std::string& date) {
-    std::string text = kHead + fmt::format("\nDevice: {}. Measured {}.\n", device_.info().name, date);
-    for (const HardCase& c : hard_cases()) text += section(c);
-    return text;
+  void write(const std::string& date) {
+    std::string text =
+        kHead + fmt::format(
+                    "\nDevice: {}; native: the CPU's vector units. Measured {} with `scripts/stability`.\n"
+                    "\n![Where leapfrog left the cloths](images/stability.png)\n\n*Where leapfrog left the "
+                    "cloths: the cases in the order of this page, {} a row.*\n",
+                    device_.info().name, date, kColumns);
+    const auto cases = hard_cases();
+    const auto rows = static_cast<std::uint32_t>((cases.size() + kColumns - 1) / kColumns);
+    Picture sheet{kColumns * kTileWidth, rows * kTileHeight, {}};
+    sheet.rgba.assign(std::size_t{sheet.width} * sheet.height * 4, 255);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      text += kept_section(cases[k]);
+      place(read_png(picture_of(cases[k])), static_cast<std::uint32_t>(k), sheet);
+    }
+    write_png(docs_ / "images" / "stability.png", sheet);
+    write_file(docs_ / "stability.md", text + crush_section());
   }
 
  private:
-  std::string section(const HardCase& c) {
+  fs::path picture_of(const HardCase& c) const { return parts_ / (c.name + ".png"); }
+
+  /// The case's tables, from an earlier run where that got so far.
+  std::string kept_section(const HardCase& c) {
+    const fs::path kept = parts_ / (c.name + ".md");
     std::cerr << c.name << std::flush;
-    std::string text = fmt::format(
-        "\n## {}\nA cloth {} `tests/hard_cases/{}.toml`{}, {:.3g} s.\n\n![{}](stability/{}.png)\n\n"
-        "| solver | on | result | substeps | stretch | energy | inside | tunnelled | time |\n"
-        "|---|---|---|---|---|---|---|---|---|\n",
-        c.name, sentence(c), c.scene, settings(c), c.time_s, c.name, c.name);
-    for (const Solver* solver : solvers()) {
-      const Outcome on_cpu = run_hard_case(
-          c, *solver, [](const Model& m, const Solver& s) { return make_cpu_simulation(m, s, "f32"); });
-      text += row(c, *solver, "CPU", on_cpu);
-      if (solver == solvers().front()) draw(c, on_cpu);
-      if (solver->on_gpu)
-        text += row(
-            c, *solver, "device",
-            run_hard_case(c, *solver, [&](const Model& m, const Solver& s) -> std::unique_ptr<Simulation> {
-              return GpuSimulation::create(device_, m, s, {.pipelines = pipelines_});
-            }));
-      std::cerr << '.' << std::flush;
+    if (fs::exists(kept) && fs::exists(picture_of(c))) {
+      std::cerr << ": kept\n";
+      return read_file(kept);
     }
+    const std::string text = section(c);
+    write_file(kept, text);
     std::cerr << '\n';
     return text;
   }
-  static std::string sentence(const HardCase& c) { return c.about + "."; }
+  std::string section(const HardCase& c) {
+    std::string text = fmt::format(
+        "\n## {}\nA cloth {}. `tests/hard_cases/{}.toml`{}, {:.3g} s.\n\n"
+        "| solver | on | result | substeps | stretch | energy | inside | tunnelled | time |\n"
+        "|---|---|---|---|---|---|---|---|---|\n",
+        c.name, c.about, c.scene, settings(c), c.time_s);
+    for (const Solver* solver : solvers()) {
+      text += rows(c, *solver);
+      std::cerr << '.' << std::flush;
+    }
+    return text;
+  }
+  std::string rows(const HardCase& c, const Solver& solver) {
+    const Outcome on_cpu = run_hard_case(
+        c, solver, [](const Model& m, const Solver& s) { return make_cpu_simulation(m, s, "f32"); });
+    if (&solver == solvers().front()) draw(c, on_cpu);
+    std::string text = row(c, solver, "CPU", on_cpu);
+    if (native_lacks(hard_model(c), solver, "f32").empty())
+      text += row(c, solver, "native", run_hard_case(c, solver, [](const Model& m, const Solver& s) {
+                    return make_native_simulation(m, s, "f32");
+                  }));
+    if (solver.on_gpu)
+      text +=
+          row(c, solver, "device",
+              run_hard_case(c, solver, [&](const Model& m, const Solver& s) -> std::unique_ptr<Simulation> {
+                return GpuSimulation::create(device_, m, s, {.pipelines = pipelines_});
+              }));
+    return text;
+  }
   static std::string settings(const HardCase& c) {
     std::string text;
     for (const std::string& set : c.set) text += fmt::format("{}`{}`", text.empty() ? " with " : ", ", set);
     return text;
   }
   void draw(const HardCase& c, const Outcome& outcome) {
-    const Model model = hard_model(c);
-    Camera camera;
-    glm::dvec3 low = outcome.end.position[0], high = low;
-    for (const glm::dvec3& x : outcome.end.position) {
-      low = glm::min(low, x);
-      high = glm::max(high, x);
-    }
-    camera.target_m = 0.5 * (low + high);
-    camera.distance_m = std::max(0.5, 1.4 * glm::length(high - low));
-    camera.yaw_rad = 0.5;
-    camera.pitch_rad = 0.25;
-    OffscreenRenderer renderer(device_, model, {.width = 200, .height = 150, .samples = 4, .camera = camera});
-    write_png(folder_ / "stability" / (c.name + ".png"), renderer.draw(outcome.end));
+    OffscreenRenderer renderer(
+        device_, outcome.model,
+        {.width = kTileWidth, .height = kTileHeight, .samples = 4, .camera = camera_for(outcome.end)});
+    write_png(picture_of(c), renderer.draw(outcome.end));
+  }
+  static void place(const Picture& tile, std::uint32_t k, Picture& sheet) {
+    const std::uint32_t left = k % kColumns * kTileWidth, top = k / kColumns * kTileHeight;
+    for (std::uint32_t y = 0; y < tile.height; ++y)
+      std::copy_n(&tile.rgba[std::size_t{y} * tile.width * 4], std::size_t{tile.width} * 4,
+                  &sheet.rgba[(std::size_t{top + y} * sheet.width + left) * 4]);
   }
 
-  fs::path folder_;
+  fs::path docs_, parts_;
   gpu::Device device_;
   std::shared_ptr<GpuPipelines> pipelines_;
 };
@@ -124,13 +151,12 @@ class Page {
 }  // namespace weft::hard
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: weft_stability DOCS_FOLDER DATE\n";
+  if (argc != 4) {
+    std::cerr << "usage: weft_stability DOCS_FOLDER PARTS_FOLDER DATE\n";
     return 2;
   }
   try {
-    weft::hard::Page page(argv[1]);
-    weft::write_file(std::filesystem::path(argv[1]) / "stability.md", page.write(argv[2]));
+    weft::hard::Page(argv[1], argv[2]).write(argv[3]);
   } catch (const weft::Error& failure) {
     std::cerr << failure.what() << '\n';
     return static_cast<int>(failure.code());

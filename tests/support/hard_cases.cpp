@@ -2,12 +2,14 @@
 #include "support/hard_cases.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
 
+#include "model/carry.h"
 #include "model/measures.h"
 #include "scene/reader.h"
 
@@ -56,17 +58,6 @@ std::uint32_t passed_through(const Model& model, const State& before, const Stat
   return count;
 }
 
-/// Moves the pinned particles of a hanging cloth.
-void move_pins(const Model& model, const glm::dvec3& by_m, double apart, State& state) {
-  const double middle_m = model.scene.cloth.center_m.x;
-  for (std::size_t p = 0; p < state.position.size(); ++p) {
-    if (model.relative_inverse_mass[p] != 0.0) continue;
-    glm::dvec3& x = state.position[p];
-    x += by_m;
-    x.x = middle_m + (x.x - middle_m) * apart;
-  }
-}
-
 /// The scene's material at step k of a sweep: each of three parameters goes up and down over its decades, at
 /// a pace of its own.
 Scene swept(const Scene& scene, std::uint64_t k) {
@@ -80,11 +71,18 @@ Scene swept(const Scene& scene, std::uint64_t k) {
   return next;
 }
 
+/// The scene with the resolution of frame k: another one every ten frames.
+Scene regridded(const Scene& scene, std::uint64_t k) {
+  constexpr std::array<std::uint32_t, 6> kResolutions{16, 33, 7, 24, 5, 29};
+  Scene next = scene;
+  next.cloth.resolution = kResolutions[k / 10 % kResolutions.size()];
+  return next;
+}
+
 /// Follows a run: what is most over all frames' ends.
 class Watcher {
  public:
-  Watcher(const Model& model, const State& start)
-      : model_(model), before_(start), start_j_(energy(model, start).total()) {
+  Watcher(const Model& model, const State& start) : before_(start), start_j_(energy(model, start).total()) {
     const Energy begins = energy(model, start);
     const double gravity_m_s2 =
         model.scene.gravity ? glm::length(model.scene.gravity->acceleration_m_s2) : 0.0;
@@ -96,47 +94,47 @@ class Watcher {
     momentum_ = linear_momentum(model, start);
     mass_kg_ = mass_kg;
   }
-  void see(const State& state) {
-    outcome.max_stretch = std::max(outcome.max_stretch, stretch(model_, state).maximum);
-    outcome.inside = std::max(outcome.inside, deepest_share(model_, state));
-    outcome.tunnelled += passed_through(model_, before_, state);
+  /// A frame's end.
+  void see(const Model& model, const State& state) {
+    outcome.max_stretch = std::max(outcome.max_stretch, stretch(model, state).maximum);
+    outcome.inside = std::max(outcome.inside, deepest_share(model, state));
+    outcome.tunnelled += passed_through(model, before_, state);
     if (outcome.energy_scale_j > 0.0)
       outcome.energy_gain =
-          std::max(outcome.energy_gain, (energy(model_, state).total() - start_j_) / outcome.energy_scale_j);
+          std::max(outcome.energy_gain, (energy(model, state).total() - start_j_) / outcome.energy_scale_j);
     for (const glm::dvec3& v : state.velocity) fastest_m_s_ = std::max(fastest_m_s_, glm::length(v));
     if (fastest_m_s_ > 0.0)
       outcome.momentum_drift =
           std::max(outcome.momentum_drift,
-                   glm::distance(linear_momentum(model_, state), momentum_) / (mass_kg_ * fastest_m_s_));
+                   glm::distance(linear_momentum(model, state), momentum_) / (mass_kg_ * fastest_m_s_));
     before_ = state;
+  }
+  /// A cloth carried over to another grid: what interpolating costs or gives is not the solver's.
+  void carried(const Model& from, const State& before, const Model& to, const State& after) {
+    start_j_ += energy(to, after).total() - energy(from, before).total();
+    before_ = after;
   }
   Outcome outcome;
 
  private:
-  const Model& model_;
   State before_;
   double start_j_, mass_kg_ = 0.0, fastest_m_s_ = 0.0;
   glm::dvec3 momentum_{};
 };
 
-/// What the hand does before frame `k` of `count`; may put another simulation in place.
+/// What the hand does before frame `k`; may put another simulation in place.
 void use_hand(const HardCase& c, const Solver& solver, const MakeSimulation& make, std::uint64_t k,
-              std::uint64_t count, std::unique_ptr<Simulation>& simulation) {
+              Watcher& watcher, std::unique_ptr<Simulation>& simulation) {
   if (c.hand == Hand::none) return;
-  State state = simulation->read();
   const Model& model = simulation->model();
-  if (c.hand == Hand::sweeps_parameters) {
-    auto next = make(build_model(swept(model.scene, k)), solver);
-    next->write(state);
-    simulation = std::move(next);
-    return;
-  }
-  if (c.hand == Hand::yanks_pins && k == 3) move_pins(model, {0.0, 0.0, 10.0}, 1.0, state);
-  if (c.hand == Hand::parts_pins) {
-    const double steps = 0.8 * static_cast<double>(count);
-    if (static_cast<double>(k) < steps) move_pins(model, glm::dvec3(0.0), std::pow(3.0, 1.0 / steps), state);
-  }
-  simulation->write(state);
+  const bool sweeps = c.hand == Hand::sweeps_parameters;
+  const Scene scene = sweeps ? swept(model.scene, k) : regridded(model.scene, k);
+  if (!sweeps && scene.cloth.resolution == model.scene.cloth.resolution) return;
+  auto next = make(build_model(scene), solver);
+  const State before = simulation->read(), after = carry_state(model, before, next->model());
+  next->write(after);
+  if (!sweeps) watcher.carried(model, before, next->model(), after);
+  simulation = std::move(next);
 }
 
 }  // namespace
@@ -186,18 +184,19 @@ Outcome run_hard_case(const HardCase& c, const Solver& solver, const MakeSimulat
   const std::uint64_t count = frames_for(c.time_s, frame_s, 1).whole;
   const auto began = std::chrono::steady_clock::now();
   for (std::uint64_t k = 0; k < count; ++k) {
-    use_hand(c, solver, make, k, count, simulation);
+    use_hand(c, solver, make, k, watcher, simulation);
     watcher.outcome.substeps = std::max(watcher.outcome.substeps, simulation->plan().substeps);
     simulation->advance(frame_s, simulation->plan().substeps);
     const State state = simulation->read();
     watcher.outcome.divergence = simulation->divergence();
     if (watcher.outcome.divergence) break;
-    watcher.see(state);
+    watcher.see(simulation->model(), state);
   }
   Outcome outcome = std::move(watcher.outcome);
   outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   if (outcome.divergence)
     outcome.cause = likely_cause(*outcome.divergence, simulation->model(), simulation->plan());
+  outcome.model = simulation->model();
   outcome.end = simulation->last_good().value_or(start);
   return outcome;
 }

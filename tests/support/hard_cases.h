@@ -16,7 +16,7 @@ enum class Start { scene, point, line, box, inside_out, falling_30, swinging };
 enum class Masses { scene, one_heavy, one_light, checkered };
 
 /// What happens before a frame, other than what the scene says.
-enum class Hand { none, yanks_pins, parts_pins, sweeps_parameters };
+enum class Hand { none, sweeps_parameters, changes_resolution };
 
 struct HardCase {
   std::string name;                   ///< a word
@@ -48,7 +48,8 @@ struct Outcome {
       0;  ///< particles that passed through a sphere or the floor between two frames' ends
   double momentum_drift = 0.0;  ///< of a free cloth without forces, over mass times fastest particle
   double wall_s = 0.0;
-  State end;  ///< the last good one where it diverged
+  Model model;  ///< that the run ended with
+  State end;    ///< the last good one where it diverged
 };
 
 /// Makes the simulation that a run uses: on the CPU or on a device.
