@@ -2,7 +2,6 @@
 // what contact, energy and momentum promise holds. The cases that take long, and all other solvers, are in
 // long_hard_cases_test.cpp.
 #include "hard_cases/judge.h"
-#include "sim/native_simulation.h"
 
 namespace weft::hard {
 namespace {
@@ -15,16 +14,13 @@ TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheReference) {
 }
 
 TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheVectorUnits) {
-  const MakeSimulation natively = [](const Model& model, const Solver& solver) {
-    return make_native_simulation(model, solver, "f32");
-  };
   for (const HardCase& c : hard_cases())
-    if (c.quick) judge_default(c, run_hard_case(c, find_solver("leapfrog"), natively), "native");
+    if (c.quick) judge_default(c, run_hard_case(c, find_solver("leapfrog"), natively()), "vector units");
 }
 
-TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheDeviceWithTheSameBits) {
+TEST_F(HardCasesTest, LeapfrogStaysFiniteOnTheDevice) {
   for (const HardCase& c : hard_cases()) {
-    if (!c.quick || c.hand == Hand::sweeps_parameters) continue;
+    if (!c.quick) continue;
     const Outcome outcome = run_hard_case(c, find_solver("leapfrog"), on_device());
     judge_default(c, outcome, "device");
   }

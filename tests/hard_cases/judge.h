@@ -8,6 +8,7 @@
 #include "gpu_fixture.h"
 #include "model/measures.h"
 #include "sim/gpu_simulation.h"
+#include "sim/native_simulation.h"
 #include "support/hard_cases.h"
 
 namespace weft::hard {
@@ -16,6 +17,10 @@ class JudgedTest : public test::GpuTest {
  protected:
   static MakeSimulation on_cpu() {
     return [](const Model& model, const Solver& solver) { return make_cpu_simulation(model, solver, "f32"); };
+  }
+  static MakeSimulation natively() {
+    return
+        [](const Model& model, const Solver& solver) { return make_native_simulation(model, solver, "f32"); };
   }
   static MakeSimulation on_device() {
     const auto pipelines = std::make_shared<GpuPipelines>(device());

@@ -21,7 +21,8 @@ that is crumpled by force can come to it.
 
 Measured: a cloth of 12 rows in empty space whose particles begin off their places by a normal distance,
 leapfrog in double for the time of 10 000 automatic substeps. The numbers are the most energy at any
-frame's end, over the start's; above 1 energy came from nowhere. *share* is of the largest stable step
+frame's end, over the start's, also after the run would have been stopped; above 1 energy came from
+nowhere. *share* is of the largest stable step
 (automatic: 0.9), *ratio* the damping ratio.
 
 )";
@@ -33,8 +34,9 @@ constexpr const char* kConclusion = R"(
   narrow ribbons and no resonance of one frequency. Cloth without shear springs gains it soonest,
   because there λ is the largest eigenvalue itself and not 1.5 times as much. Growth is that of a random
   walk: it slows down as the cloth gets hot, and ends in no overflow.
-- **Smaller steps help, but no step ends it**: a third of the step gains a thousandth, and not nothing.
-  So a tighter bound, for ribbons or for all undamped cloth, would cost substeps and promise nothing.
+- **Smaller steps help, but no step ends it**: a third of the step gains some thousand times less, and
+  not nothing. So a tighter bound, for ribbons or for all undamped cloth, would cost substeps and
+  promise nothing.
 - **A damping ratio of 0.03 ends it**, where the bound is sharp, too. By default structural springs of
   cotton have 0.1 at 64 × 64 and 0.06 at 16 × 16, so that this is met only by who turns damping off and
   crushes the cloth.

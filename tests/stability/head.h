@@ -23,8 +23,9 @@ busy machine: compare orders of magnitude.
 **Reported, not hidden.** Leapfrog's answer to 100 m/s of wind on cloth of 1 kN/m is a large stretch,
 since the wind pulls with kilonewtons; to a yank of 600 m/s, and to pins three widths apart, too.
 Explicit Euler is unstable at every step and the trapezoid rule without damping: they are there to be
-found out, and are. XPBD is finite at any step and too soft: where leapfrog stretches by percents it
-stretches by tens of them.
+found out, and are wherever it comes to show. XPBD is finite at any step and too soft: where leapfrog
+stretches by percents it stretches by tens of them, in frames of a second by far more; *energy* beside
+it is what the real springs would store at that stretch.
 
 **The wedge.** Where two colliders overlap, or one and the floor, contact serves one after the other. A
 particle may then be inside one by as much as the other pushes it back in; it is pushed out as soon as

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -62,11 +63,13 @@ class Page {
   }
   void write(const std::string& date) {
     std::string text =
-        kHead + fmt::format(
-                    "\nDevice: {}; native: the CPU's vector units. Measured {} with `scripts/stability`.\n"
-                    "\n![Where leapfrog left the cloths](images/stability.png)\n\n*Where leapfrog left the "
-                    "cloths: the cases in the order of this page, {} a row.*\n",
-                    device_.info().name, date, kColumns);
+        kHead +
+        fmt::format(
+            "\nDevice: {}; native: the CPU's vector units. Measured {} with `scripts/stability`.\n"
+            "\n![Where leapfrog left the cloths](images/stability.png)\n\n*Where leapfrog left the "
+            "cloths, alike on all three: the cases in the order of this page, {} a row. What stays a point "
+            "or a line, and ribbons a millimetre wide, are too thin to be seen.*\n",
+            device_.info().name, date, kColumns);
     const auto cases = hard_cases();
     const auto rows = static_cast<std::uint32_t>((cases.size() + kColumns - 1) / kColumns);
     Picture sheet{kColumns * kTileWidth, rows * kTileHeight, {}};
@@ -97,10 +100,10 @@ class Page {
   }
   std::string section(const HardCase& c) {
     std::string text = fmt::format(
-        "\n## {}\nA cloth {}. `tests/hard_cases/{}.toml`{}, {:.3g} s.\n\n"
+        "\n## {}\n{}. `tests/hard_cases/{}.toml`{}, {:.3g} s.\n\n"
         "| solver | on | result | substeps | stretch | energy | inside | tunnelled | time |\n"
         "|---|---|---|---|---|---|---|---|---|\n",
-        c.name, c.about, c.scene, settings(c), c.time_s);
+        c.name, sentence(c.about), c.scene, settings(c), c.time_s);
     for (const Solver* solver : solvers()) {
       text += rows(c, *solver);
       std::cerr << '.' << std::flush;
@@ -122,6 +125,10 @@ class Page {
               run_hard_case(c, solver, [&](const Model& m, const Solver& s) -> std::unique_ptr<Simulation> {
                 return GpuSimulation::create(device_, m, s, {.pipelines = pipelines_});
               }));
+    return text;
+  }
+  static std::string sentence(std::string text) {
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
     return text;
   }
   static std::string settings(const HardCase& c) {

@@ -164,6 +164,7 @@ State hard_start(const HardCase& c, const Model& model) {
     glm::dvec3& x = state.position[p];
     const std::uint32_t i = p % model.grid.nx;
     if (c.start == Start::point) x = center;
+    if (c.start == Start::speck) x = center + 1e-5 * random_vector(random);
     if (c.start == Start::line) x.x = center.x;
     if (c.start == Start::box) x = center + 0.5 * model.grid.width_m() * random_vector(random);
     if (c.start == Start::inside_out && (i ^ 1u) < model.grid.nx)

@@ -12,7 +12,7 @@
 
 namespace weft::hard {
 
-enum class Start { scene, point, line, box, inside_out, falling_30, swinging };
+enum class Start { scene, point, speck, line, box, inside_out, falling_30, swinging };
 enum class Masses { scene, one_heavy, one_light, checkered };
 
 /// What happens before a frame, other than what the scene says.
