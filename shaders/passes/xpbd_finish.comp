@@ -17,7 +17,7 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };
 
 layout(constant_id = 0) const bool floor_contact = true;
-layout(constant_id = 1) const bool spheres = true;
+layout(constant_id = 1) const uint sphere_number = 1u;  // up to 2; more count as 3
 #include "../shared/dot.glsl"
 #include "../shared/contact.glsl"
 
@@ -25,6 +25,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
   if (i >= params.nx || j >= params.ny) return;
   uint p = j * params.nx + i, row = row_index * params.row_stride;
+  hold_spheres(row);
   real4 own = position[p];
   real3 x0 = own.xyz;
   precise real3 x1 = x0;

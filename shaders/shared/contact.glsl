@@ -20,8 +20,8 @@ real3 respond(real3 v, real3 collider_velocity, real3 n, real friction) {
   return answer;
 }
 
-// Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of the
-// reach; else p1. Shallower chords are particles sliding round the sphere.
+// Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of
+// the reach; else p1. Shallower chords are particles sliding round the sphere.
 real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit) {
   precise real3 D = p1 - p0;
   precise real m = real(99.0) / real(100.0) * reach;
@@ -56,9 +56,31 @@ real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit) {
   return p1;
 }
 
-void sphere_contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
-  real4 place = substeps[row];
-  real4 travel = substeps[row + 1u];
+// A sphere's rows of the table: where it is at the substep's end and its reach, how far it came and its
+// friction, and its velocity.
+struct SphereRows {
+  real4 place, travel, velocity;
+};
+
+SphereRows sphere_rows(uint row, uint s) {
+  uint at = row + kRowHeadVec4s + s * kRowSphereVec4s;
+  return SphereRows(substeps[at], substeps[at + 1u], substeps[at + 2u]);
+}
+
+// One or two spheres are read once an invocation by hold_spheres(), for the reason of held_params.glsl,
+// and cost no loop, which would cost a software device its registers. step_of() calls it.
+const bool spheres = sphere_number != 0u, few_spheres = sphere_number <= 2u;
+SphereRows held_spheres[2];
+#define HOLDS_SPHERES
+
+void hold_spheres(uint row) {
+  if (!few_spheres) return;
+  if (sphere_number > 0u) held_spheres[0] = sphere_rows(row, 0u);
+  if (sphere_number > 1u) held_spheres[1] = sphere_rows(row, 1u);
+}
+
+void sphere_contact(SphereRows rows_of, real3 x0, inout real3 x1, inout real3 v) {
+  real4 place = rows_of.place, travel = rows_of.travel;
   precise real3 p0 = x0 - (place.xyz - travel.xyz);
   precise real3 p1 = x1 - place.xyz;
   bool hit;
@@ -73,14 +95,16 @@ void sphere_contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
   precise real3 out_to = place.w * n;
   precise real3 stopped = place.xyz + out_to;
   x1 = stopped;
-  v = respond(v, substeps[row + 2u].xyz, n, travel.w);
+  v = respond(v, rows_of.velocity.xyz, n, travel.w);
 }
 
-// Spheres in scene order, then the floor, so that the floor always holds. `row` starts the dispatch's row.
+// Spheres in scene order, then the floor, so that the floor always holds. `row` starts the dispatch's row,
+// for which hold_spheres() was called.
 void contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
-  if (spheres)
-    for (uint s = 0u; s < params.sphere_count; ++s)
-      sphere_contact(row + kRowHeadVec4s + s * kRowSphereVec4s, x0, x1, v);
+  if (!few_spheres)
+    for (uint s = 0u; s < params.sphere_count; ++s) sphere_contact(sphere_rows(row, s), x0, x1, v);
+  if (few_spheres && sphere_number > 0u) sphere_contact(held_spheres[0], x0, x1, v);
+  if (few_spheres && sphere_number > 1u) sphere_contact(held_spheres[1], x0, x1, v);
   if (floor_contact && x1.y < params.floor_height_m) {
     x1.y = params.floor_height_m;
     v = respond(v, real3(0.0), real3(0.0, 1.0, 0.0), params.floor_friction);

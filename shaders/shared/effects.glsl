@@ -42,9 +42,9 @@ const bool floor_contact = false;
 layout(constant_id = 7) const bool floor_contact = true;
 #endif
 #ifdef WEFT_LACKS_spheres
-const bool spheres = false;
+const uint sphere_number = 0u;
 #else
-layout(constant_id = 8) const bool spheres = true;
+layout(constant_id = 8) const uint sphere_number = 1u;  // up to 2; more count as 3
 #endif
 #ifdef WEFT_LACKS_pins
 const bool pins = false;

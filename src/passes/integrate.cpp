@@ -26,7 +26,7 @@ Constants integrate_constants(const Model& m) {
       wind,
       gravity,
       scene.floor.has_value(),
-      !scene.spheres.empty(),
+      static_cast<std::uint32_t>(std::min<std::size_t>(scene.spheres.size(), kSpheresLooped)),
       pins};
   Constants constants;
   for (std::size_t id = 0; id < values.size(); ++id)

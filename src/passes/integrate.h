@@ -27,6 +27,9 @@ enum IntegrateConstant {
 inline constexpr std::array<std::string_view, kIntegrateConstantCount> kIntegrateConstantNames{
     "shear", "flex", "bending", "damping", "air", "wind", "gravity", "floor", "spheres", "pins"};
 
+/// The constant "spheres" is their number, up to this, which stands for any more: few of them take no loop.
+inline constexpr std::size_t kSpheresLooped = 3;
+
 /// Which effects the model's scene calls for; one entry an IntegrateConstant.
 Constants integrate_constants(const Model& model);
 
