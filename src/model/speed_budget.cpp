@@ -55,6 +55,20 @@ double energy_ratio(const Model& before, const Model& next) {
   return ratio * std::max(1.0, before.interior_mass_kg / next.interior_mass_kg);
 }
 
+/// How far the strain limit can pull a particle in: the most that a spring is beyond its limit, for as many
+/// springs as lie in a row across the cloth.
+double pulled_in_m(const Model& model, const State& start) {
+  const double limit = model.scene.material.strain_limit;
+  if (limit == 0.0) return 0.0;
+  double most_m = 0.0;
+  for_each_spring(model, [&](const SpringKind& kind, std::uint32_t a, std::uint32_t b, double) {
+    if (kind.di == 2 || kind.dj == 2) return;  // flex springs are not limited
+    const double length_m = glm::distance(start.position[a], start.position[b]);
+    most_m = std::max(most_m, length_m - (1.0 + limit) * kind.rest_m);
+  });
+  return most_m * (model.grid.nx + model.grid.ny);
+}
+
 }  // namespace
 
 double free_mass_ratio(const Model& model) {
@@ -73,7 +87,7 @@ SpeedBudget::SpeedBudget(const Model& model, const State& start, bool in_double)
   given_m_s_ += std::sqrt(2.0 * (begins.kinetic_j + begins.elastic_j + begins.bending_j) / mass_kg);
   // Contact moves what begins inside a collider, or inside the cloth itself, out of it at once.
   const double inside_m = deepest_penetration(model, start) + 2.0 * model.half_thickness_m;
-  if (inside_m > 0.0) given_m_s_ += reaction_1_s_ * inside_m;
+  given_m_s_ += reaction_1_s_ * (inside_m + pulled_in_m(model, start));
 }
 
 void SpeedBudget::elapse(const Scene& scene, double duration_s, std::uint32_t substeps, double hand_m_s) {

@@ -337,9 +337,11 @@ std::optional<State> VulkanSimulation::last_good() {
 bool VulkanSimulation::adopt(const Model& model) {
   Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
-  const bool new_masses = model.relative_inverse_mass != model_.relative_inverse_mass;
+  // Both give energy that depends on the state.
+  const bool anew = model.relative_inverse_mass != model_.relative_inverse_mass ||
+                    model.scene.material.strain_limit != model_.scene.material.strain_limit;
   State state;
-  if (new_masses) state = read();
+  if (anew) state = read();
   wait();
   frame_.order.reset();
   budget_.adopt(model_, model);
@@ -347,7 +349,7 @@ bool VulkanSimulation::adopt(const Model& model) {
   free_mass_ratio_ = free_mass_ratio(model_);
   plan_ = std::move(next);
   write_blocks(buffers_, model_, plan_, perturbation_);
-  if (new_masses) write(state);
+  if (anew) write(state);
   return true;
 }
 
