@@ -59,23 +59,23 @@ std::string crush_section() {
     const char* title;
     double off_cells, damping_ratio, step_share;
   };
-  constexpr std::array kColumns{Column{"0.2 cells off, undamped", 0.2, 0.0, 0.9},
-                                Column{"0.5", 0.5, 0.0, 0.9},
-                                Column{"1", 1.0, 0.0, 0.9},
-                                Column{"4.7", 4.7, 0.0, 0.9},
-                                Column{"1, share 0.6", 1.0, 0.0, 0.6},
-                                Column{"1, share 0.3", 1.0, 0.0, 0.3},
-                                Column{"1, ratio 0.01", 1.0, 0.01, 0.9},
-                                Column{"1, ratio 0.03", 1.0, 0.03, 0.9},
-                                Column{"4.7, ratio 0.03", 4.7, 0.03, 0.9}};
+  constexpr std::array kTries{Column{"0.2 cells off, undamped", 0.2, 0.0, 0.9},
+                              Column{"0.5", 0.5, 0.0, 0.9},
+                              Column{"1", 1.0, 0.0, 0.9},
+                              Column{"4.7", 4.7, 0.0, 0.9},
+                              Column{"1, share 0.6", 1.0, 0.0, 0.6},
+                              Column{"1, share 0.3", 1.0, 0.0, 0.3},
+                              Column{"1, ratio 0.01", 1.0, 0.01, 0.9},
+                              Column{"1, ratio 0.03", 1.0, 0.03, 0.9},
+                              Column{"4.7, ratio 0.03", 4.7, 0.03, 0.9}};
   std::string text = std::string(kText) + "| cloth |";
-  for (const Column& column : kColumns) text += fmt::format(" {} |", column.title);
+  for (const Column& column : kTries) text += fmt::format(" {} |", column.title);
   text += "\n|---|";
-  for (std::size_t k = 0; k < kColumns.size(); ++k) text += "---|";
+  for (std::size_t k = 0; k < kTries.size(); ++k) text += "---|";
   for (const bool sheared : {true, false})
     for (const std::uint32_t columns : {2u, 3u, 8u, 24u}) {
       text += fmt::format("\n| {} × 12{} |", columns, sheared ? "" : ", no shear springs");
-      for (const Column& c : kColumns)
+      for (const Column& c : kTries)
         text += fmt::format(" {} |", times({columns, c.off_cells, c.damping_ratio, sheared, c.step_share}));
     }
   return fmt::format("{}\n{}", text, kConclusion);
