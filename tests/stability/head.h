@@ -31,6 +31,13 @@ it is what the real springs would store at that stretch.
 particle may then be inside one by as much as the other pushes it back in; it is pushed out as soon as
 one lets go, and stays finite meanwhile.
 
+**Beyond this page.** The long suite (`test_hard_cases_long`, `scripts/test --full`) runs 1024 × 1024 at 20
+kN/m onto a sphere for 0.1 s, and scene 1 with gusts at 32 × 32 for ten minutes, after which pins have not
+moved by a bit, energy is bounded and memory constant. On 2026-11-22 both held: the first natively in 20
+minutes, the second on llvmpipe in 9, on 4 cores at a load of 20. 10 000 random scenes and 400 random walks
+over the sliders of 60 frames each stayed finite (`test_hard_cases`, CPU reference); 2 of the walks ended
+where the last section says.
+
 **Other grids.** Where the resolution changes, the cloth is carried over as in the window (displacement
 and velocity, bicubic). Interpolating changes the energy by what the other grid cannot show; *energy*
 there counts what the solver made between the changes.
