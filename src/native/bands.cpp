@@ -6,7 +6,8 @@
 
 namespace weft::native {
 
-Bands::Bands(Cloth& cloth, const Kernels& kernels, std::uint32_t count) : cloth_(cloth), kernels_(kernels) {
+Bands::Bands(Cloth& cloth, const Kernels& kernels, std::uint32_t count, float* half_velocity)
+    : cloth_(cloth), kernels_(kernels), half_velocity_(half_velocity) {
   for (std::uint32_t b = 0; b < count; ++b) {
     auto band = std::make_unique<Band>();
     band->first = b * cloth.ny() / count;
@@ -44,20 +45,22 @@ void Bands::sweep_band(std::uint32_t own, std::span<const Kick> kicks) {
               .first = band.first,
               .last = band.last,
               .carried = band.carried.get(),
-              .carried_two = band.carried.get() + 3 * cloth_.sheet().stride};
-  const auto has_handed = [&](std::uint32_t neighbour, std::uint32_t states) {
-    return neighbour >= count() || bands_[neighbour]->done.load(std::memory_order_acquire) >= states;
+              .carried_two = band.carried.get() + 3 * cloth_.sheet().stride,
+              .half_velocity = half_velocity_};
+  const auto await_neighbour = [&](std::uint32_t neighbour, std::uint32_t states) {
+    if (neighbour < count()) wait_for(bands_[neighbour]->done, states);
   };
   const bool alone = count() == 1;
   if (!alone) hand_on(band, 0);
-  band.done.store(1, std::memory_order_release);
+  raise(band.done, 1);
   for (std::uint32_t s = 0; s < kicks.size(); ++s) {
-    wait_until([&] { return has_handed(own - 1, s + 1) && has_handed(own + 1, s + 1); });
+    await_neighbour(own - 1, s + 1);
+    await_neighbour(own + 1, s + 1);
     if (!alone) take_neighbours(own, s % 2);
     sweep.kick = &kicks[s];
     kernels_.sweep[cloth_.variant()](sweep);
     if (!alone) hand_on(band, (s + 1) % 2);
-    band.done.store(s + 2, std::memory_order_release);
+    raise(band.done, s + 2);
   }
 }
 

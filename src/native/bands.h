@@ -19,7 +19,8 @@ inline constexpr std::uint32_t kRowsPerBandMin = 4;  ///< the first two and the 
 class Bands {
  public:
   /// @param count  at most cloth.ny() / kRowsPerBandMin, at least 1
-  Bands(Cloth& cloth, const Kernels& kernels, std::uint32_t count);
+  /// @param half_velocity  velocity Verlet's, 3·stride a row; null in leapfrog
+  Bands(Cloth& cloth, const Kernels& kernels, std::uint32_t count, float* half_velocity = nullptr);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(bands_.size()); }
   /// One sweep after the other, band by band in the crew's threads.
@@ -42,6 +43,7 @@ class Bands {
 
   Cloth& cloth_;
   const Kernels& kernels_;
+  float* half_velocity_;
   std::vector<std::unique_ptr<Band>> bands_;
 };
 

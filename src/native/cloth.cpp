@@ -17,8 +17,8 @@ namespace {
 constexpr std::align_val_t kVectorAlignment{64};
 
 /// Six rows apart by nearly a multiple of a page would all fall into the same few lines of the cache.
-std::size_t stride_for(std::size_t nx) {
-  std::size_t stride = (nx + kColumns - 1) / kColumns * kColumns + 2 * kColumns;
+std::size_t stride_for(std::size_t nx, std::size_t pad) {
+  std::size_t stride = (nx + kColumns - 1) / kColumns * kColumns + kColumns + pad;
   const auto near_page = [](std::size_t bytes) { return bytes % 4096 < 192 || bytes % 4096 > 4096 - 192; };
   while (near_page(24 * stride) || near_page(4 * stride)) stride += kColumns;
   return stride;
@@ -108,7 +108,12 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
   kicks_.reserve(rows.size());
   for (const KickDrift& from : rows) {
     const SubstepRow<float> row = substep_row<float>(model, from);
-    Kick kick{.loss = row.loss, .gain = row.gain, .drift = row.drift};
+    Kick kick{.loss = row.loss,
+              .gain = row.gain,
+              .drift = row.drift,
+              .predict_loss = row.predict_loss,
+              .predict_gain = row.predict_gain,
+              .begins_frame = kicks_.empty() ? 1u : 0u};
     copy(row.alpha_wind, kick.alpha_wind);
     kick.spheres = spheres_.data() + spheres_.size();
     for (const SphereRow<float>& at : row.spheres) {
@@ -122,9 +127,9 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
   }
 }
 
-Cloth::Cloth(const Model& model, std::span<const Constant> constants)
+Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad)
     : nx_(model.grid.nx), ny_(model.grid.ny), variant_(variant_of(constants)) {
-  sheet_.stride = stride_for(nx_);
+  sheet_.stride = stride_for(nx_, pad);
   sheet_.block_count = (nx_ + kColumns - 1) / kColumns;
   state_ = make_floats((ny_ + 2) * row_floats());
   relative_inverse_mass_.assign(model.relative_inverse_mass.begin(), model.relative_inverse_mass.end());
@@ -163,29 +168,17 @@ std::uint64_t Cloth::bytes() const {
          block_of_.size() * sizeof(std::uint32_t) + relative_inverse_mass_.size() * sizeof(float);
 }
 
-void Cloth::load(const State& state) {
+void Cloth::load(const HostBuffers<float>& buffers) {
   for (std::size_t j = 0; j < ny_; ++j) {
     float* at = row(j) + kColumns;
+    const glm::vec4* x = buffers[BufferId::position].data() + j * nx_;
+    const glm::vec4* v = buffers[BufferId::velocity].data() + j * nx_;
     for (std::size_t i = 0; i < nx_; ++i) {
-      const glm::vec3 x(state.position[j * nx_ + i]), v(state.velocity[j * nx_ + i]);
       for (int axis = 0; axis < 3; ++axis) {
-        at[axis * sheet_.stride + i] = x[axis];
-        at[(3 + axis) * sheet_.stride + i] = v[axis];
+        at[axis * sheet_.stride + i] = x[i][axis];
+        at[(3 + axis) * sheet_.stride + i] = v[i][axis];
       }
     }
-  }
-}
-
-void Cloth::store(State& state) {
-  state.position.resize(nx_ * ny_);
-  state.velocity.resize(nx_ * ny_);
-  for (std::size_t j = 0; j < ny_; ++j) {
-    const float* at = row(j) + kColumns;
-    for (std::size_t i = 0; i < nx_; ++i)
-      for (int axis = 0; axis < 3; ++axis) {
-        state.position[j * nx_ + i][axis] = at[axis * sheet_.stride + i];
-        state.velocity[j * nx_ + i][axis] = at[(3 + axis) * sheet_.stride + i];
-      }
   }
 }
 

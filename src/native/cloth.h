@@ -34,8 +34,9 @@ class KickTable {
 
 class Cloth {
  public:
-  /// @param constants  of the plan's step: which effects there are
-  Cloth(const Model& model, std::span<const Constant> constants);
+  /// @param constants  of the plan's steps: which effects there are
+  /// @param pad        columns to the right of the cloth, a multiple of kColumns
+  Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad = kColumns);
 
   const Sheet& sheet() const { return sheet_; }
   const Outside& outside() const { return outside_; }
@@ -49,8 +50,7 @@ class Cloth {
   std::uint64_t bytes() const;
   std::size_t distinct_blocks() const { return blocks_.size(); }
 
-  void load(const State& state);
-  void store(State& state);
+  void load(const HostBuffers<float>& buffers);
 
  private:
   void make_blocks(const Model& model);

@@ -16,10 +16,10 @@ Crew::~Crew() {
 
 void Crew::run(std::uint32_t count, const std::function<void(std::uint32_t)>& task) {
   task_ = &task;
-  busy_.store(count - 1, std::memory_order_relaxed);
+  finished_.store(0, std::memory_order_relaxed);
   for (std::uint32_t own = 1; own < count; ++own) call(own);
   task(0);
-  wait_until([this] { return busy_.load(std::memory_order_acquire) == 0; });
+  wait_for(finished_, count - 1);
 }
 
 void Crew::call(std::uint32_t own) {
@@ -32,7 +32,8 @@ void Crew::help(std::uint32_t own) {
     calls_[own].round.wait(seen, std::memory_order_acquire);
     if (stopping_) return;
     (*task_)(own);
-    busy_.fetch_sub(1, std::memory_order_release);
+    finished_.fetch_add(1, std::memory_order_release);
+    finished_.notify_all();
   }
 }
 

@@ -1,4 +1,4 @@
-// Threads that wait for work between frames, and the wait they share: spin shortly, then give way.
+// Threads that wait for work between frames, and the wait they share: spin shortly, then sleep.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -8,11 +8,17 @@
 
 namespace weft::native {
 
-/// Calls `done` until it says yes: 200 times at once, with the processor's pause between, then after giving
-/// the core away each time. With fewer cores than threads, longer spinning keeps from running whom it waits
-/// for.
-template <class Done>
-void wait_until(Done&& done);
+/// Returns when the flag is at least so much: looks 200 times, with the processor's pause between, then
+/// sleeps until it is raised. With fewer cores than threads, longer spinning keeps from running whom it waits
+/// for; and beside busy neighbours who sleeps is woken at once, where who only gives its core away waits for
+/// its turn.
+inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least);
+
+/// Raises a flag that others wait for.
+inline void raise(std::atomic<std::uint32_t>& flag, std::uint32_t to) {
+  flag.store(to, std::memory_order_release);
+  flag.notify_all();
+}
 
 /// One thread and its helpers. Not for two callers at a time.
 class Crew {
@@ -37,8 +43,8 @@ class Crew {
 
   const std::function<void(std::uint32_t)>* task_ = nullptr;
   bool stopping_ = false;
-  std::vector<Call> calls_;  ///< by task; the first is the caller's and unused
-  alignas(64) std::atomic<std::uint32_t> busy_{0};
+  std::vector<Call> calls_;                             ///< by task; the first is the caller's and unused
+  alignas(64) std::atomic<std::uint32_t> finished_{0};  ///< helpers, in the present round
   std::vector<std::thread> threads_;
 };
 
@@ -48,14 +54,14 @@ inline void pause_briefly() {
 #endif
 }
 
-template <class Done>
-void wait_until(Done&& done) {
+inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least) {
   constexpr int kPausesMax = 200;
   for (int pauses = 0; pauses < kPausesMax; ++pauses) {
-    if (done()) return;
+    if (flag.load(std::memory_order_acquire) >= least) return;
     pause_briefly();
   }
-  while (!done()) std::this_thread::yield();
+  for (std::uint32_t now; (now = flag.load(std::memory_order_acquire)) < least;)
+    flag.wait(now, std::memory_order_acquire);
 }
 
 }  // namespace weft::native

@@ -2,6 +2,7 @@
 #include "native/engine.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -17,9 +18,11 @@ namespace {
 
 constexpr std::uint32_t kThreadsMax = 1024;
 
-std::uint32_t threads_asked(std::uint32_t option) {
+/// The most threads that a trial may find best.
+std::uint32_t threads_most(std::uint32_t option) {
   const char* text = std::getenv("WEFT_THREADS");
-  if (option != 0 || text == nullptr) return option;
+  if (option != 0) return option;
+  if (text == nullptr) return std::clamp(std::thread::hardware_concurrency(), 1u, kThreadsMax);
   std::uint32_t count = 0;
   const char* const end = text + std::strlen(text);
   const auto [stopped, failure] = std::from_chars(text, end, count);
@@ -29,11 +32,36 @@ std::uint32_t threads_asked(std::uint32_t option) {
   return count;
 }
 
-ThreadChoice choice_for(const Cloth& cloth, std::uint32_t asked) {
+ThreadChoice choice_for(const Cloth& cloth, const EngineOptions& options) {
   const auto rows_allow = static_cast<std::uint32_t>(std::max<std::size_t>(1, cloth.ny() / kRowsPerBandMin));
-  if (asked != 0) return ThreadChoice::fixed(std::min(asked, rows_allow));
-  const std::uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kThreadsMax);
-  return ThreadChoice(std::min(cores, rows_allow), cloth.nx() * cloth.ny());
+  if (options.threads != 0) return ThreadChoice::fixed(std::min(options.threads, rows_allow));
+  return ThreadChoice(std::min(threads_most(options.threads_max), rows_allow), cloth.nx() * cloth.ny());
+}
+
+bool is_xpbd(const Plan& plan) {
+  return std::ranges::any_of(plan.steps, [](const PlanStep& step) { return step.pass == &xpbd_predict; });
+}
+
+/// The constants of all passes that the kernels stand for: which effects there are.
+Constants effects_of(const Plan& plan) {
+  Constants effects;
+  for (const PlanStep& step : plan.steps) {
+    if (step.block != weft::Block::substep) continue;
+    for (const Constant& constant : step.constants) effects.push_back(constant);
+  }
+  return effects;
+}
+
+/// Passes of the substep, and those that sweep at a frame's end.
+bool has_code_for(const PlanStep& step) {
+  static constexpr std::array kSwept{&integrate, &velocity_verlet_step, &xpbd_predict, &xpbd_spring,
+                                     &xpbd_bend, &xpbd_finish};
+  if (step.block == weft::Block::frame_end && !step.pass->swaps_state) return true;  // by its mirror
+  return step.block != weft::Block::frame_start && std::ranges::count(kSwept, step.pass) > 0;
+}
+
+Cloth cloth_for(const Model& model, const Plan& plan) {
+  return Cloth(model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns);
 }
 
 }  // namespace
@@ -41,9 +69,8 @@ ThreadChoice choice_for(const Cloth& cloth, std::uint32_t asked) {
 std::string unsupported(const Plan& plan) {
   if (plan.precision != "f32") return "native computes in f32 only";
   for (const PlanStep& step : plan.steps) {
-    if (step.block == weft::Block::frame_end && !step.pass->swaps_state) continue;
-    if (step.pass != &integrate || step.block == weft::Block::frame_start)
-      return fmt::format("native has no vector code for the pass {}", step.pass->name);
+    if (!has_code_for(step)) return fmt::format("native has no vector code for the pass {}", step.pass->name);
+    if (step.block == weft::Block::frame_end) continue;
     for (const Constant& constant : step.constants)
       if (constant.value != 0 && std::ranges::count(kIntegrateConstantNames, constant.name) == 0)
         return fmt::format("native has no vector code for {}", constant.name);
@@ -51,34 +78,65 @@ std::string unsupported(const Plan& plan) {
   return {};
 }
 
-Engine::Engine(const Model& model, std::span<const Constant> constants, const EngineOptions& options)
-    : cloth_(model, constants),
+Engine::Engine(const Model& model, const Plan& plan, const EngineOptions& options)
+    : cloth_(cloth_for(model, plan)),
       kernels_(find_kernels(options.vector)),
-      choice_(choice_for(cloth_, threads_asked(options.threads))) {}
+      choice_(choice_for(cloth_, options)) {
+  furnish(model, plan);
+}
+
+void Engine::adopt(const Model& model, const Plan& plan) {
+  bands_.clear();
+  xpbd_.reset();
+  cloth_ = cloth_for(model, plan);
+  furnish(model, plan);
+}
+
+void Engine::furnish(const Model& model, const Plan& plan) {
+  if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
+  const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
+  if (std::ranges::any_of(plan.steps, predicts))
+    half_velocity_ = make_floats(cloth_.ny() * 3 * cloth_.sheet().stride);
+}
+
+std::uint64_t Engine::bytes() const {
+  std::uint64_t bytes = cloth_.bytes();
+  if (xpbd_) bytes += xpbd_->bytes();
+  if (half_velocity_) bytes += cloth_.ny() * 3 * cloth_.sheet().stride * sizeof(float);
+  return bytes;
+}
+
+Crew& Engine::crew(std::uint32_t count) {
+  if (crew_ == nullptr || crew_->size() < count) crew_ = std::make_unique<Crew>(count - 1);
+  return *crew_;
+}
 
 Bands& Engine::bands(std::uint32_t count) {
-  if (crew_ == nullptr || crew_->size() < count) crew_ = std::make_unique<Crew>(count - 1);
   auto& made = bands_[count];
-  if (made == nullptr) made = std::make_unique<Bands>(cloth_, kernels_, count);
+  if (made == nullptr) made = std::make_unique<Bands>(cloth_, kernels_, count, half_velocity_.get());
   return *made;
 }
 
-void Engine::sweep(std::span<const Kick> kicks) {
+void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t count) {
   using Clock = std::chrono::steady_clock;
+  std::span<const Kick> kicks = table.kicks().subspan(first, count);
   while (!kicks.empty()) {
     const Turn turn = choice_.next(static_cast<std::uint32_t>(kicks.size()));
-    Bands& divided = bands(turn.threads);
+    Crew& together = crew(turn.threads);
     const auto began = Clock::now();
-    divided.sweep(*crew_, kicks.first(turn.substeps));
+    if (xpbd_)
+      xpbd_->sweep(together, turn.threads, kicks.first(turn.substeps));
+    else
+      bands(turn.threads).sweep(together, kicks.first(turn.substeps));
     choice_.report(turn, std::chrono::duration<double>(Clock::now() - began).count());
     kicks = kicks.subspan(turn.substeps);
   }
 }
 
 void Engine::write_surface(const SurfaceTarget& target) {
-  Bands& divided = bands(choice_.best());
-  divided.surface(*crew_,
-                  {.position = target.position, .velocity = target.velocity, .normal = target.normal});
+  bands(choice_.best())
+      .surface(crew(choice_.best()),
+               {.position = target.position, .velocity = target.velocity, .normal = target.normal});
 }
 
 }  // namespace weft::native

@@ -8,13 +8,15 @@
 
 #include "native/bands.h"
 #include "native/thread_choice.h"
+#include "native/xpbd.h"
 #include "plan/plan.h"
 
 namespace weft::native {
 
 struct EngineOptions {
-  std::uint32_t threads = 0;  ///< 0: WEFT_THREADS, else by trial
-  std::string vector;         ///< a kernel's name; empty: WEFT_VECTOR, else the widest
+  std::uint32_t threads = 0;      ///< exactly that many; 0: by trial
+  std::uint32_t threads_max = 0;  ///< of the trial; 0: WEFT_THREADS, else as many as there are cores
+  std::string vector;             ///< a kernel's name; empty: WEFT_VECTOR, else the widest
 };
 
 /// Why the vector kernels do not run this plan; empty when they do.
@@ -27,24 +29,32 @@ struct SurfaceTarget {
 
 class Engine {
  public:
-  /// @param constants  of the plan's `integrate`
+  /// @param plan  one that is not unsupported()
   /// @throws Error(Exit::usage) for a kernel that this machine does not have, or a WEFT_THREADS that is no
   /// number
-  Engine(const Model& model, std::span<const Constant> constants, const EngineOptions& options = {});
+  Engine(const Model& model, const Plan& plan, const EngineOptions& options = {});
 
-  void load(const State& state) { cloth_.load(state); }
-  void store(State& state) { cloth_.store(state); }
-  /// One sweep a row of the schedule.
-  void sweep(std::span<const Kick> kicks);
+  /// Another model of the same grid, with its plan. The state has to be loaded again.
+  void adopt(const Model& model, const Plan& plan);
+  /// Takes positions and velocities.
+  void load(const HostBuffers<float>& buffers) { cloth_.load(buffers); }
+  /// Sweeps rows [first, first + count) of a frame's schedule.
+  void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count);
   void write_surface(const SurfaceTarget& target);
   const Kernels& kernels() const { return kernels_; }
   std::uint32_t threads() const { return choice_.best(); }
-  std::uint64_t bytes() const { return cloth_.bytes(); }
+  std::uint64_t bytes() const;
 
  private:
   Bands& bands(std::uint32_t count);
+  Crew& crew(std::uint32_t count);
+  /// What the plan's solver needs beside the cloth.
+  void furnish(const Model& model, const Plan& plan);
+
   Cloth cloth_;
   const Kernels& kernels_;
+  Floats half_velocity_;        ///< velocity Verlet's
+  std::unique_ptr<Xpbd> xpbd_;  ///< the sweeps, where XPBD is the solver
   ThreadChoice choice_;
   std::unique_ptr<Crew> crew_;
   std::map<std::uint32_t, std::unique_ptr<Bands>> bands_;  ///< by count, made when first wanted

@@ -33,7 +33,9 @@ struct Sphere {
 /// One row of the schedule, rounded once; passes/coefficients.h says what each is.
 struct Kick {
   float alpha_wind[3], loss, gain, drift;
-  const Sphere* spheres;  ///< Outside::sphere_count of them
+  float predict_loss, predict_gain;  ///< of the kick that predicts; 0 without one
+  std::uint32_t begins_frame;        ///< the frame's first row
+  const Sphere* spheres;             ///< Outside::sphere_count of them
 };
 
 /// What acts on every particle alike.
@@ -59,7 +61,38 @@ struct Sweep {
   float* const* rows;  ///< by row, from first − 2 (where there is one) to last + 1
   std::size_t first, last;
   float *carried, *carried_two;  ///< P, and the (0,2) pairs' forces of the row above: 3·stride each
+  /// Velocity Verlet's velocities half a step behind, by row of the cloth: 3·stride each; null in leapfrog.
+  float* half_velocity;
 };
+
+/// XPBD's cloth: the rows as of Sheet, with a wider pad to the right, and beside each how far its particles
+/// have moved since the substep began and their inverse masses: mx[stride] my[stride] mz[stride] w[stride].
+struct XpbdSheet {
+  std::size_t stride, nx, ny;
+  float *state, *moved;  ///< 6·stride and 4·stride a row
+};
+inline constexpr std::size_t kXpbdPad = 64;  ///< columns to the right of the cloth: a step of three vectors
+
+/// Rows [first, last) of the prediction before, or of velocities and contact after the constraints.
+struct XpbdMove {
+  XpbdSheet sheet;
+  Outside outside;
+  const Kick* kick;
+  std::size_t first, last;
+  std::uint32_t has_air, has_contact;
+};
+
+/// Springs or bending triples of one colour that begin in rows [first, last).
+struct XpbdPull {
+  XpbdSheet sheet;
+  std::size_t first, last;
+  std::uint32_t colour;
+  /// Compliance [m/N] inside and on a boundary line, rest length [m], damping time c/k [s].
+  float compliance, compliance_edge, rest, damping_time, step;
+};
+
+/// What an XpbdPull pulls, in the order of the solver's items; then the triples along i and along j.
+enum XpbdKind { kPullI, kPullJ, kPullDown, kPullUp, kPullTwoI, kPullTwoJ, kBendI, kBendJ, kXpbdKinds };
 
 /// Vertex normals of rows [first, last) of a cloth of nx × ny, and what is drawn.
 struct Surface {
@@ -79,6 +112,9 @@ struct Kernels {
   std::uint32_t lanes;
   void (*sweep[kSweepVariants])(const Sweep&);
   void (*surface)(const Surface&);
+  void (*xpbd_predict)(const XpbdMove&);
+  void (*xpbd_finish)(const XpbdMove&);
+  void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with
   /// `repeats` square roots and divisions of a vector each, as many at a time as hide their latency; returns
   /// their sum so that nobody leaves them out. What the sweep needs of the divider at least.
   float (*divide)(std::uint64_t repeats);

@@ -9,6 +9,7 @@ constexpr float kNoNormal = 1e-30f;
 
 #include "native/contact_text.h"
 #include "native/surface_text.h"
+#include "native/xpbd_text.h"
 
 struct Body {
   Vec3 x, v;
@@ -110,22 +111,31 @@ WEFT_INLINE Vec3 force_on(const Place& at, const Body& own, const Block& block, 
 }
 
 /// docs/float-form.md "Kick and drift" and contact, in place. Gravity and wind are one predicted jump and one
-/// addition each, so that they need no variant of their own.
+/// addition each, so that they need no variant of their own; nor does velocity Verlet, whose springs see the
+/// velocity that it predicts.
 template <std::uint32_t kEffects>
-WEFT_INLINE void move(const Sweep& sweep, const Place& at, const Body& own, Vec3 force, const Block& block,
-                      Index lane) {
+WEFT_INLINE void move(const Sweep& sweep, const Place& at, float* half_velocity, const Body& own, Vec3 force,
+                      const Block& block, Index lane) {
   const Kick& kick = *sweep.kick;
   const Vec w = load(block.inverse_mass + lane);
   Vec3 acceleration = w * force;
   if (sweep.outside.has_gravity) acceleration = acceleration + splat3(sweep.outside.gravity);
   if (sweep.outside.has_wind) acceleration = acceleration + splat3(kick.alpha_wind);
   Vec3 change = splat(kick.gain) * acceleration;
-  if constexpr (kEffects & kAir) change = change - splat(kick.loss) * own.v;
+  const bool predicts = half_velocity != nullptr;
+  const Vec3 before = predicts && !kick.begins_frame ? load3(half_velocity, at.stride) : own.v;
+  if constexpr (kEffects & kAir) change = change - splat(kick.loss) * before;
   Touched next;
-  next.v = own.v + change;
+  next.v = before + change;
   next.x = own.x + splat(kick.drift) * next.v;
   if constexpr (kEffects & kContact)
     if (kick.drift > 0.0f) next = touch(sweep.outside, kick, own.x, next);
+  if (predicts) {
+    store3(half_velocity, at.stride, next.v);
+    Vec3 further = splat(kick.predict_gain) * acceleration;
+    if constexpr (kEffects & kAir) further = further - splat(kick.predict_loss) * next.v;
+    next.v = next.v + further;
+  }
   if (block.has_fixed) {
     const Mask fixed = w == Vec{};
     next.x = select(fixed, own.x, next.x);
@@ -150,7 +160,9 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, Index j) {
                      sweep.carried + column, sweep.carried_two + column, sheet.stride};
       const Body own = load_body(at.own, sheet.stride);
       if constexpr (kPart == Part::own) {
-        move<kEffects>(sweep, at, own, force_on<kEffects>(at, own, block, lane, left), block, lane);
+        float* const half =
+            sweep.half_velocity == nullptr ? nullptr : sweep.half_velocity + j * 3 * sheet.stride + column;
+        move<kEffects>(sweep, at, half, own, force_on<kEffects>(at, own, block, lane, left), block, lane);
       } else {
         if constexpr (kPart == Part::above) springs_down<kEffects>(at, own, block, lane, left);
         if constexpr (kEffects & kTwoApart) spring_two_down<kEffects>(at, own, block, lane);
@@ -195,5 +207,15 @@ struct UpTo<0, kVariant...> {
 
 template <std::uint32_t... kVariant>
 constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
-  return {name, kLanes, {sweep_rows<kVariant>...}, surface, divide};
+  return {name,
+          kLanes,
+          {sweep_rows<kVariant>...},
+          surface,
+          xpbd_predict,
+          xpbd_finish,
+          {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,
+            pull_two_along_i<false>, pull_along_j<false, 2>, bend_along_i, bend_along_j},
+           {pull_along_i<true>, pull_along_j<true, 1>, pull_across<true, false>, pull_across<true, true>,
+            pull_two_along_i<true>, pull_along_j<true, 2>, bend_along_i, bend_along_j}},
+          divide};
 }

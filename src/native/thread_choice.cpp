@@ -12,6 +12,7 @@ constexpr double kTurn_s = 2e-4;              // hides what waking the threads c
 constexpr std::uint32_t kTurnSubstepsMax = 64;
 constexpr std::chrono::seconds kTrialEvery{2};
 constexpr double kTrialCostRatio = 20.0;  // at most a twentieth of the time is spent on trials
+constexpr double kSettledShare = 0.3;     // of the latest frame in the time that a substep takes
 constexpr double kHopeless = 3.0;         // times the fastest: not tried further
 
 }  // namespace
@@ -63,6 +64,13 @@ void ThreadChoice::end_turn() {
     if (++candidate_ < candidates_.size()) continue;
     candidate_ = 0;
     if (++round_ < kRounds) continue;
+    if (distrusted_) {
+      const auto place = std::ranges::find(candidates_, best_) - candidates_.begin();
+      seconds_[static_cast<std::size_t>(place)] =
+          std::max(seconds_[static_cast<std::size_t>(place)], settled_s_);
+    }
+    distrusted_ = false;
+    settled_s_ = 0;
     const auto least = std::ranges::min_element(seconds_);
     best_ = candidates_[static_cast<std::size_t>(least - seconds_.begin())];
     trial_allowed_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -73,7 +81,10 @@ void ThreadChoice::end_turn() {
 }
 
 void ThreadChoice::report_settled(double substep_s) {
-  if (best_ > 1 && substep_s > seconds_.front() && Clock::now() >= trial_allowed_) trial_due_ = Clock::now();
+  settled_s_ = settled_s_ > 0 ? kSettledShare * substep_s + (1 - kSettledShare) * settled_s_ : substep_s;
+  if (best_ == 1 || settled_s_ <= seconds_.front() || Clock::now() < trial_allowed_) return;
+  distrusted_ = true;
+  trial_due_ = Clock::now();
 }
 
 }  // namespace weft::native

@@ -1,6 +1,7 @@
 // How many threads sweep a cloth: tried on its own substeps, which have to be computed anyway, since no bit
-// depends on it; and tried again now and then, since other programs come and go, and at once when the threads
-// have become slower than one alone was: with cores taken by others they wait for each other.
+// depends on it; and tried again now and then, since other programs come and go, and soon when the threads
+// have become slower than one alone was: with cores taken by others they wait for each other. In that trial
+// their latest substeps count instead of the short turns, which may have met free cores by luck.
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -36,7 +37,9 @@ class ThreadChoice {
   std::vector<std::uint32_t> candidates_;
   std::vector<double> seconds_;  ///< the least a substep took, by candidate
   std::uint32_t best_ = 1, round_ = kRounds, candidate_ = 0, turn_substeps_ = 2;
-  double trial_s_ = 0;  ///< what the latest trial took
+  double trial_s_ = 0;       ///< what the latest trial took
+  double settled_s_ = 0;     ///< what a substep took since then; 0 before the first
+  bool distrusted_ = false;  ///< best_ was slower than one thread alone, whatever its turns in the trial say
   Clock::time_point trial_due_{}, trial_allowed_{};
 };
 

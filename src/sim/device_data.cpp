@@ -128,9 +128,7 @@ State read_kept(const GpuBuffers& buffers, const Model& model, const Plan& plan,
 
 void write_placed(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
                   std::span<const PlacedParticle> particles) {
-  for (const PlacedParticle& placed : particles)
-    if (model.relative_inverse_mass.at(placed.particle) != 0.0)
-      throw error(Exit::internal, "particle {} is to be placed but is not pinned", placed.particle);
+  require_pinned(model, particles);
   in_precision(plan, [&]<class T>(T) {
     using Element = glm::vec<4, T>;
     for (std::size_t first = 0; first < particles.size();) {

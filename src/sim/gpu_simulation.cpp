@@ -32,23 +32,6 @@ const Solver& require_gpu(const Solver& solver) {
   return solver;
 }
 
-/// Whether the commands recorded for one plan run the other as they are.
-bool same_commands(const Plan& a, const Plan& b) {
-  const auto same_step = [](const PlanStep& x, const PlanStep& y) {
-    const auto same_constant = [](const Constant& c, const Constant& d) {
-      return c.name == d.name && c.value == d.value;
-    };
-    return x.pass == y.pass && x.block == y.block && x.range.x == y.range.x && x.range.y == y.range.y &&
-           x.range.offset == y.range.offset && x.row == y.row && x.interval == y.interval &&
-           x.item == y.item && std::ranges::equal(x.constants, y.constants, same_constant);
-  };
-  const auto same_buffer = [](const PlanBuffer& x, const PlanBuffer& y) {
-    return x.id == y.id && x.bytes == y.bytes;
-  };
-  return a.solver == b.solver && std::ranges::equal(a.steps, b.steps, same_step) &&
-         std::ranges::equal(a.buffers, b.buffers, same_buffer);
-}
-
 class VulkanSimulation final : public GpuSimulation {
  public:
   VulkanSimulation(gpu::Device& device, const Model& model, const Solver& solver,

@@ -39,16 +39,14 @@ Ending reference_ending(const Model& model, const Solver& solver, const State& f
   return ending;
 }
 
-Ending native_ending(native::Engine& engine, const Model& model, const Solver& solver, const State& from,
-                     const NativeFrame& frame) {
+Ending native_ending(HostSimulation& native, const State& from, const NativeFrame& frame) {
+  native.write(from);
+  native.advance(frame.length_s, frame.substeps);
   Ending ending;
-  for (const BufferId id : kCompared) ending[id].assign(model.grid.count(), glm::vec4(0.0f));
-  engine.load(from);
-  const std::vector<KickDrift> rows = solver.schedule(from.time_s, frame.length_s, frame.substeps);
-  const native::KickTable table(model, rows);
-  engine.sweep(table.kicks());
-  const auto floats = [&](BufferId id) { return &ending[id].data()->x; };
-  engine.write_surface({floats(BufferId::position), floats(BufferId::normal), floats(BufferId::velocity)});
+  load_state(native.model(), native.read(), ending);
+  ending[BufferId::normal].assign(native.model().grid.count(), glm::vec4(0.0f));
+  std::vector<glm::vec4> positions(native.model().grid.count());
+  native.write_drawn({&positions.data()->x, &ending[BufferId::normal].data()->x});
   return ending;
 }
 
@@ -83,7 +81,6 @@ void require_native(const Model& model, const Solver& solver, const ValidationOp
 ValidationReport validate_native(const Model& model, const Solver& solver, const ValidationOptions& options) {
   require_native(model, solver, options);
   const Plan plan = compile_plan(model, solver, "f32");
-  const PlanStep& step = *std::ranges::find(plan.steps, &integrate, &PlanStep::pass);
   const std::uint32_t substeps = std::min(plan.substeps, options.lockstep_substeps);
   const NativeFrame frame{model.scene.solver.frame_s * substeps / plan.substeps, substeps};
   ValidationReport report{.device = "native", .scene = model.scene.title, .exact_required = true};
@@ -91,11 +88,10 @@ ValidationReport validate_native(const Model& model, const Solver& solver, const
     const Ending expected = reference_ending(model, solver, probe.state, frame);
     for (const native::Kernels* kernels : native::kernels_here())
       for (const std::uint32_t threads : {1u, kSeveralThreads}) {
-        native::Engine engine(model, step.constants, {.threads = threads, .vector = kernels->name});
-        const Ending got = native_ending(engine, model, solver, probe.state, frame);
-        const std::string kernel =
-            fmt::format("{} substeps, {}, {} {}", substeps, kernels->name, engine.threads(),
-                        engine.threads() == 1 ? "thread" : "threads");
+        const auto native =
+            make_native_simulation(model, solver, "f32", {.threads = threads, .vector = kernels->name});
+        const Ending got = native_ending(*native, probe.state, frame);
+        const std::string kernel = fmt::format("{} substeps, {}", substeps, native->device_name());
         for (const BufferId id : kCompared)
           report.rows.push_back(native_row(kernel, probe.name, id, got, expected));
       }

@@ -1,9 +1,13 @@
 // The vector kernels end in the bits of the float reference: every scene, every effect, every width that this
 // machine has, any number of threads.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "model/measures.h"
 #include "native/features.h"
 #include "scene/reader.h"
 #include "sim/native_simulation.h"
@@ -19,7 +23,7 @@ Model model_of(const std::string& scene, std::vector<std::string> set) {
 
 /// Frames of 30 substeps, the last one cut to 7.
 State run(Simulation& simulation, std::uint32_t frames) {
-  const double frame_s = 30.0 / 60.0 / simulation.plan().substeps;
+  const double frame_s = 30.0 / 60.0 / std::max(30u, simulation.plan().substeps);
   for (std::uint32_t f = 0; f < frames; ++f) simulation.advance(frame_s, 30);
   simulation.advance(frame_s * 7 / 30, 7);
   return simulation.read();
@@ -89,6 +93,45 @@ TEST(NativeBits, EveryEffectByItselfEqualsTheReference) {
       expect_same(vectorised(model, 4, {.threads = 1, .vector = kernels->name}), expected);
     }
   }
+}
+
+/// docs/solvers.md: whatever the solver's passes are, native ends in their bits. The variants cover every
+/// kind of spring and triple, damped and not, contact, grids narrower than a vector and bands that reach on.
+void expect_solver_same(const std::string& solver, const Model& model) {
+  const Solver& passes = find_solver(solver);
+  ASSERT_EQ(native_lacks(model, passes, "f32"), "");
+  const State expected = run(*make_cpu_simulation(model, passes, "f32"), 1);
+  ASSERT_NE(state_hash(expected), state_hash(start_state(model)));
+  const auto expect_in = [&](const native::EngineOptions& options) {
+    SCOPED_TRACE(fmt::format("{}, {} threads", options.vector, options.threads));
+    expect_same(run(*make_native_simulation(model, passes, "f32", options), 1), expected);
+  };
+  for (const native::Kernels* kernels : native::kernels_here())
+    expect_in({.threads = 1, .vector = kernels->name});
+  expect_in({.threads = 3, .vector = {}});  // one band has two neighbours
+}
+
+TEST(NativeBits, VelocityVerletAndXpbdEqualTheReference) {
+  struct Case {
+    const char* scene;
+    std::vector<std::string> set;
+  };
+  const std::vector<Case> cases{
+      {"1", {"cloth.resolution=37", "material.flex=0.25", "material.bend=1e-4"}},
+      {"5", {"cloth.resolution=41", "spheres.0.center=[0,0.9,0]"}},
+      {"1", {"cloth.resolution=33", "material.damping=0", "cloth.imperfection=0.02"}},
+      {"1", {"cloth.resolution=18", "material.flex=0", "material.bend=1e-4", "material.shear=0"}},
+      {"1", {"cloth.resolution=49", "air.drag=0.3", "floor.height=0.65", "floor.friction=0.4"}},
+      {"2", {"cloth.resolution=70", "cloth.height=0.3"}},
+      {"1", {"cloth.resolution=3"}},
+      {"1", {"cloth.resolution=2"}}};
+  for (const char* solver : {"velocity-verlet", "xpbd"})
+    for (const Case& one : cases) {
+      std::vector<std::string> set = one.set;
+      set.push_back(fmt::format("solver.name=\"{}\"", solver));
+      SCOPED_TRACE(fmt::format("{} in scene {} with {}", solver, one.scene, fmt::join(set, " ")));
+      expect_solver_same(solver, model_of(one.scene, set));
+    }
 }
 
 /// Spheres that hit from the side at 20 m/s, faster than a cell a substep: the swept branch too.

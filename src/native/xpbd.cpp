@@ -1,0 +1,115 @@
+// The order of the colours is the plan's; what each pulls follows from its item (passes/spring_colours.h).
+#include "native/xpbd.h"
+
+#include <algorithm>
+
+#include "native/bands.h"
+#include "passes/integrate.h"
+#include "passes/passes.h"
+#include "passes/xpbd.h"
+
+namespace weft::native {
+namespace {
+
+bool is_set(std::span<const Constant> constants, IntegrateConstant id) {
+  return std::ranges::any_of(
+      constants, [&](const Constant& c) { return c.name == kIntegrateConstantNames[id] && c.value != 0; });
+}
+
+XpbdKind kind_of(SpringName spring) {
+  switch (spring) {
+    case kStructuralI: return kPullI;
+    case kStructuralJ: return kPullJ;
+    case kShearDown: return kPullDown;
+    case kShearUp: return kPullUp;
+    case kFlexI: return kPullTwoI;
+    default: return kPullTwoJ;
+  }
+}
+
+}  // namespace
+
+Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan)
+    : cloth_(cloth),
+      kernels_(kernels),
+      moved_bytes_(cloth.ny() * 4 * cloth.sheet().stride * sizeof(float)),
+      moved_(make_floats(moved_bytes_ / sizeof(float))),
+      turns_(cloth.ny() / kRowsPerBandMin + 1) {
+  const std::size_t stride = cloth.sheet().stride;
+  move_.sheet = {stride, cloth.nx(), cloth.ny(), cloth.row(0), moved_.get()};
+  move_.outside = cloth.outside();
+  const auto interior = static_cast<float>(1.0 / model.interior_mass_kg);
+  for (std::size_t j = 0; j < cloth.ny(); ++j)
+    for (std::size_t i = 0; i < cloth.nx(); ++i)
+      moved_[(4 * j + 3) * stride + kColumns + i] =
+          cloth.relative_inverse_mass()[j * cloth.nx() + i] * interior;
+  for (const PlanStep& step : plan.steps) {
+    if (step.pass == &xpbd_predict) move_.has_air = is_set(step.constants, kHasAir);
+    if (step.pass == &xpbd_spring || step.pass == &xpbd_bend) colours_.push_back(colour_of(step, model));
+  }
+  move_.has_contact = cloth.outside().has_floor != 0 || cloth.outside().sphere_count > 0;
+}
+
+Xpbd::Colour Xpbd::colour_of(const PlanStep& step, const Model& model) const {
+  const ConstraintRows<float> rows = constraint_rows<float>(model);
+  const bool bends = step.pass == &xpbd_bend;
+  const bool damped = !bends && is_set(step.constants, kHasDamping);
+  const SpringColour spring = SpringColour::of(step.item);
+  const XpbdKind kind = bends ? (step.item < 3 ? kBendI : kBendJ) : kind_of(spring.kind);
+  std::size_t inside = shared::kConstraintBend, edge = shared::kConstraintBend + 1;
+  if (kind == kPullI || kind == kPullJ) inside = shared::kConstraintStructural, edge = inside + 1;
+  if (kind == kPullDown || kind == kPullUp) inside = edge = shared::kConstraintShear;
+  if (kind == kPullTwoI || kind == kPullTwoJ) inside = shared::kConstraintFlex, edge = inside + 1;
+  Colour colour{.pull = kernels_.xpbd_pull[damped ? 1 : 0][kind], .what = {}, .reach = 0};
+  colour.what = {.sheet = move_.sheet,
+                 .colour = bends ? step.item % 3 : spring.colour,
+                 .compliance = rows[inside].y,
+                 .compliance_edge = rows[edge].y,
+                 .rest = rows[inside].x,
+                 .damping_time = rows[inside].z};
+  if (kind == kPullJ || kind == kPullDown || kind == kPullUp) colour.reach = 1;
+  if (kind == kPullTwoJ || kind == kBendJ) colour.reach = 2;
+  return colour;
+}
+
+/// Marks the turn as done and waits until both neighbours have done it too.
+void Xpbd::end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn) {
+  raise(turns_[own].done, turn);
+  if (own > 0) wait_for(turns_[own - 1].done, turn);
+  if (own + 1 < count) wait_for(turns_[own + 1].done, turn);
+}
+
+void Xpbd::sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks) {
+  XpbdMove move = move_;
+  move.first = own * cloth_.ny() / count;
+  move.last = (own + 1) * cloth_.ny() / count;
+  const bool reaches_on = own + 1 < count;
+  std::uint32_t turn = 0;
+  for (const Kick& kick : kicks) {
+    move.kick = &kick;
+    kernels_.xpbd_predict(move);
+    for (const Colour& colour : colours_) {
+      XpbdPull pull = colour.what;
+      pull.step = kick.drift;
+      pull.first = move.first;
+      pull.last = reaches_on ? move.last - colour.reach : move.last;
+      colour.pull(pull);
+      if (colour.reach == 0 || count == 1) continue;
+      end_turn(own, count, ++turn);
+      if (reaches_on) {
+        pull.first = pull.last;
+        pull.last = move.last;
+        colour.pull(pull);
+      }
+      end_turn(own, count, ++turn);
+    }
+    kernels_.xpbd_finish(move);
+  }
+}
+
+void Xpbd::sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks) {
+  for (Turns& turns : turns_) turns.done.store(0, std::memory_order_relaxed);
+  crew.run(threads, [&](std::uint32_t own) { sweep_band(own, threads, kicks); });
+}
+
+}  // namespace weft::native

@@ -1,0 +1,48 @@
+// XPBD's substeps on the vector units: colour after colour over bands of rows.
+#pragma once
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "native/cloth.h"
+#include "native/crew.h"
+#include "plan/plan.h"
+
+namespace weft::native {
+
+/// The rows are shared out to threads as in Bands. A colour whose springs reach into the rows below is pulled
+/// in two turns: those within each band, then those that reach into the next one; before a turn a band waits
+/// for its two neighbours to have ended the one before. Springs of a colour share no particle, so that no bit
+/// depends on the division.
+class Xpbd {
+ public:
+  Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan);
+
+  /// One substep a kick, in that many of the crew's threads.
+  void sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks);
+  std::uint64_t bytes() const { return moved_bytes_; }
+
+ private:
+  /// One colour.
+  struct Colour {
+    void (*pull)(const XpbdPull&);
+    XpbdPull what;
+    std::size_t reach;  ///< rows down, 0 for springs within a row
+  };
+  struct alignas(64) Turns {
+    std::atomic<std::uint32_t> done{0};
+  };
+  Colour colour_of(const PlanStep& step, const Model& model) const;
+  void sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks);
+  void end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn);
+
+  Cloth& cloth_;
+  const Kernels& kernels_;
+  XpbdMove move_{};
+  std::vector<Colour> colours_;
+  std::size_t moved_bytes_;
+  Floats moved_;
+  std::vector<Turns> turns_;
+};
+
+}  // namespace weft::native
