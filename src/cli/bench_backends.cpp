@@ -9,12 +9,14 @@ namespace weft::cli {
 namespace {
 
 Table backend_table(const BackendBenchReport& report) {
-  Table table{{"scene", "resolution", "backend", "substeps", "ns_per_particle_substep", "ns_median",
-               "frame_ms", "divider_share"},
+  Table table{{"scene", "resolution", "backend", "threads_most", "cores", "substeps",
+               "ns_per_particle_substep", "ns_median", "frame_ms", "divider_share"},
               {}};
   for (const BackendRow& row : report.rows)
-    table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.backend, row.substeps,
-                          row.ns_best, row.ns_median, row.frame_ms, row.divider_share});
+    table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.backend,
+                          row.threads > 0 ? nlohmann::ordered_json(row.threads) : nlohmann::ordered_json(),
+                          row.beside_busy ? "busy" : "free", row.substeps, row.ns_best, row.ns_median,
+                          row.frame_ms, row.divider_share});
   return table;
 }
 

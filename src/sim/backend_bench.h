@@ -18,7 +18,8 @@ struct BackendBenchOptions {
 /// One backend on one size.
 struct BackendRow {
   std::string backend;                        ///< "native (AVX-512, 4 threads)"
-  std::uint32_t nx = 0, ny = 0, threads = 0;  ///< threads: 0 where the backend does not say
+  bool beside_busy = false;                   ///< while every core also ran a neighbour that computes
+  std::uint32_t nx = 0, ny = 0, threads = 0;  ///< threads: the most; 0 where the backend does not say
   std::uint32_t substeps = 0;                 ///< a frame, automatic
   double ns_best = 0, ns_median = 0;          ///< wall time a particle·substep
   double frame_ms = 0;                        ///< of a whole frame at ns_best
@@ -34,8 +35,9 @@ struct BackendBenchReport {
   std::vector<BackendRow> rows;
 };
 
-/// Times native by trial, in one thread and in twice as many threads as there are cores, the Vulkan device
-/// with its fastest kernel, and the reference. Everybody takes turns, so that what else the machine does
+/// Times native by trial, in one thread, by trial with up to twice as many threads as there are cores, and
+/// the first two again while each core runs another thread that computes; the Vulkan device with its fastest
+/// kernel, and the reference. Everybody takes turns, so that what else the machine does
 /// falls on all alike; the best turn tells what the machine can, the median what it did.
 /// @param device  null: without it
 /// @throws Error(Exit::usage) when native does not run the scene's solver and precision
