@@ -73,19 +73,20 @@ study::Point choose(const Options& o, const study::Study& study, const std::vect
 Options with_chosen_setting(const Options& asked, const std::string& scene_name,
                             const std::function<double(const Scene&)>& run_time_s) {
   if (!asked.error_m && !asked.budget_ms) return asked;
-  Options quiet = asked;
+  const Options on_device = with_default_device(asked);  // what is measured is what will run
+  Options quiet = on_device;
   quiet.quiet = true;  // the command itself says the scene's warnings
   quiet.precision.reset();
   const Scene scene = open_scene(quiet, scene_name);
   const double time_s = run_time_s(scene);
   refuse_contradictions(asked, time_s);
-  const study::Study kept = study_of(asked, scene, time_s);
+  const study::Study kept = study_of(on_device, scene, time_s);
   std::vector<study::Point> points;
   for (const study::Point& point : kept.promises_at(scene.cloth.resolution))
     if (!asked.precision || point.setting.precision == *asked.precision) points.push_back(point);
   const study::Point chosen = choose(asked, kept, points);
   note(asked, "chosen: " + described(chosen, kept.frame_s));
-  Options options = asked;
+  Options options = on_device;
   options.solver = chosen.setting.solver;
   options.precision = chosen.setting.precision;
   options.substeps = chosen.setting.substeps;

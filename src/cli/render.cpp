@@ -58,8 +58,8 @@ class Film {
   void see(OffscreenRenderer& renderer, const Machine& machine) {
     const double time_s = machine.simulation->time_s();
     if (time_s < due_s_ - 1e-6 * frame_s_) return;
-    output_->add(machine.on_gpu != nullptr ? renderer.draw(machine.on_gpu->draw_buffers(), time_s)
-                                           : renderer.draw(machine.simulation->read()));
+    output_->add(machine.drawn != nullptr ? renderer.draw(machine.drawn->draw_buffers(), time_s)
+                                          : renderer.draw(machine.simulation->read()));
     ++pictures_;
     due_s_ = static_cast<double>(pictures_) / rate_;
   }
@@ -85,7 +85,7 @@ std::unique_ptr<gpu::Device> drawing_device(const Options& o) {
   } catch (const Error& failure) {
     if (failure.code() != Exit::no_device) throw;
     throw Error(Exit::no_device,
-                "render: --device cpu computes, but pictures are drawn by a Vulkan device and there is none "
+                "render: the CPU computes, but pictures are drawn by a Vulkan device and there is none "
                 "that can be used; install a driver (Debian: mesa-vulkan-drivers), or use weft simulate");
   }
 }
@@ -128,7 +128,7 @@ Exit run_render(const Options& asked) {
   stop_between_frames();
   Film film(o, setup, run_s);
   Machine machine = start(o, setup, run_s);
-  if (!machine.device) machine.device = drawing_device(o);
+  if (!machine.device) draw_with(drawing_device(o), machine);
   Outcome outcome;
   {
     OffscreenRenderer renderer(*machine.device, setup.model, render_options(o.picture));

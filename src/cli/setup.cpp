@@ -1,12 +1,14 @@
 // Turns options into scenes, models, devices and simulations; every command begins here.
 #include "cli/setup.h"
 
+#include <cstdlib>
 #include <iostream>
 
 #include "cli/text.h"
 #include "core/error.h"
 #include "gpu/log.h"
 #include "gpu/shader.h"
+#include "sim/host_drawn.h"
 #include "sim/native_simulation.h"
 
 namespace weft::cli {
@@ -18,9 +20,20 @@ void require_device_solver(const Options& o, const Scene& scene, const Solver& s
               scene.source, solver.name);
 }
 
-void note_what_native_lacks(const Options& o, const Setup& setup) {
+/// Where it runs, once native was asked for or is the default.
+Options settled_device(const Options& asked, const Setup& setup) {
+  Options o = with_default_device(asked);
+  if (!o.on_native()) return o;
+  const bool by_default = asked.device.empty();
   const std::string lacks = native_lacks(setup.model, *setup.solver, setup.scene().solver.precision);
-  if (!lacks.empty()) note(o, lacks + ", so that the CPU reference runs this");
+  if (lacks.empty() && by_default)
+    note(o,
+         "no GPU is used: the best Vulkan device is a software one, and native computes on the CPU itself");
+  if (lacks.empty()) return o;
+  note(o, fmt::format("{}, so that the {} runs this", lacks,
+                      by_default ? "software Vulkan device" : "CPU reference"));
+  if (by_default) o.device.clear();
+  return o;
 }
 
 }  // namespace
@@ -52,6 +65,15 @@ Setup set_up(const Options& o, const std::string& number_name_or_path) {
   return setup;
 }
 
+Options with_default_device(const Options& o) {
+  const bool speaks_of_vulkan = !o.device.empty() || !o.kernel.empty() || !o.shaders.empty() ||
+                                o.validation || o.force_staging || std::getenv("WEFT_KERNEL") != nullptr;
+  if (speaks_of_vulkan || !native_by_default(gpu::list_devices())) return o;
+  Options native = o;
+  native.device = "native";
+  return native;
+}
+
 gpu::DeviceOptions device_options(const Options& o) {
   gpu::DeviceOptions wanted;
   wanted.choice = o.device;
@@ -68,14 +90,18 @@ std::unique_ptr<gpu::Device> open_device(const Options& o) {
 
 std::string device_label(const gpu::DeviceInfo& info) { return info.label(); }
 
-Machine start(const Options& o, const Setup& setup, double run_s) {
+Machine start(const Options& asked, const Setup& setup, double run_s) {
+  const Options o = settled_device(asked, setup);
   Machine machine;
   const std::string& precision = setup.scene().solver.precision;
-  if (!o.on_vulkan()) {
-    machine.simulation = o.on_cpu() ? make_cpu_simulation(setup.model, *setup.solver, precision)
-                                    : make_native_simulation(setup.model, *setup.solver, precision);
-    if (o.on_native()) note_what_native_lacks(o, setup);
-    machine.device_label = machine.simulation->device_name();
+  if (o.on_cpu()) {
+    machine.simulation = make_cpu_simulation(setup.model, *setup.solver, precision);
+    return machine;
+  }
+  if (o.on_native()) {
+    auto native = make_native_simulation(setup.model, *setup.solver, precision);
+    machine.on_native = native.get();
+    machine.simulation = std::move(native);
     return machine;
   }
   machine.device = open_device(o);
@@ -86,9 +112,23 @@ Machine start(const Options& o, const Setup& setup, double run_s) {
       *machine.device, setup.model, *setup.solver,
       {.kernel = o.kernel, .trial = long_run ? KernelTrial::allowed : KernelTrial::when_named});
   machine.on_gpu = on_gpu.get();
+  machine.drawn = on_gpu.get();
   machine.simulation = std::move(on_gpu);
-  machine.device_label = device_label(machine.device->info());
   return machine;
+}
+
+std::string Machine::device_label() const {
+  return on_gpu != nullptr ? device->info().label() : simulation->device_name();
+}
+
+void draw_with(std::unique_ptr<gpu::Device> device, Machine& machine) {
+  machine.device = std::move(device);
+  if (machine.on_native == nullptr) return;
+  machine.simulation.release();
+  std::unique_ptr<HostSimulation> native(std::exchange(machine.on_native, nullptr));
+  auto drawn = draw_host_simulation(*machine.device, std::move(native));
+  machine.drawn = drawn.get();
+  machine.simulation = std::move(drawn);
 }
 
 void report_validation(const gpu::Device* device) {

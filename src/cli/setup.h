@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "scene/reader.h"
 #include "sim/gpu_simulation.h"
+#include "sim/host_simulation.h"
 #include "sim/simulation.h"
 #include "solvers/solver.h"
 
@@ -24,8 +25,11 @@ struct Setup {
 struct Machine {
   std::unique_ptr<gpu::Device> device;  ///< null on the CPU; outlives the simulation
   std::unique_ptr<Simulation> simulation;
-  GpuSimulation* on_gpu = nullptr;  ///< the simulation, unless it runs on the CPU
-  std::string device_label;         ///< as summaries name it; software devices say so
+  GpuSimulation* on_gpu = nullptr;      ///< the simulation, unless it runs on the CPU
+  HostSimulation* on_native = nullptr;  ///< the simulation, when native was asked for or is the default
+  DrawnSimulation* drawn = nullptr;     ///< the simulation, when it writes what is drawn (draw_with)
+  /// As summaries name it; software devices say so.
+  std::string device_label() const;
 };
 
 /// `--set` first, then the options that stand for one key each.
@@ -39,6 +43,11 @@ Scene open_scene(const Options&, const std::string& number_name_or_path);
 /// @throws Error(Exit::usage)
 Setup set_up(const Options&, const std::string& number_name_or_path);
 
+/// The options with `--device native` where no device is named and native is the default: the best Vulkan
+/// device is a software one, and no option speaks of Vulkan (--kernel, --shaders, --validation,
+/// --force-staging).
+Options with_default_device(const Options&);
+
 /// What the options say of the device.
 gpu::DeviceOptions device_options(const Options&);
 
@@ -49,9 +58,13 @@ std::unique_ptr<gpu::Device> open_device(const Options&);
 /// "llvmpipe (software)": a device's name, and plainly said when it is no GPU.
 std::string device_label(const gpu::DeviceInfo&);
 
-/// Builds the simulation on the CPU or on a Vulkan device.
+/// Builds the simulation on the CPU or on a Vulkan device. What native lacks runs, where it is the default,
+/// on the Vulkan device, and else on the reference; a line on stderr says so.
 /// @param run_s  simulated time that it will run: a long one is worth a trial of the kernels
 Machine start(const Options&, const Setup&, double run_s);
+
+/// Lets a Vulkan device draw the machine's simulation; native then writes into that device's vertex buffers.
+void draw_with(std::unique_ptr<gpu::Device> device, Machine&);
 
 /// Prints validation messages on stderr.
 /// @throws Error(Exit::internal) when there is any: it is a mistake in Weft

@@ -93,7 +93,8 @@ void print(const Options& o, const study::Study& study, const study::ReportFiles
   print_result(text);
 }
 
-Exit run_study(const Options& o) {
+Exit run_study(const Options& asked) {
+  const Options o = with_default_device(asked);
   refuse_contradictions(o);
   const std::string& name = only_scene(o);
   const Scene scene = open_scene(for_scene(o), name);

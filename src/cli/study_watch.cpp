@@ -5,7 +5,6 @@
 
 #include "cli/interrupt.h"
 #include "cli/setup.h"
-#include "native/features.h"
 
 namespace weft::cli {
 
@@ -22,9 +21,7 @@ study::Watch StudyWatch::watch() {
 }
 
 study::Bench study_bench(const Options& o, gpu::Device* device) {
-  if (o.on_native())
-    return {.label = fmt::format("native ({})", native::find_kernels().name), .native = true};
-  if (device == nullptr) return {.device = nullptr, .label = "CPU reference"};
+  if (device == nullptr) return study::Bench::without_device(o.on_native());
   return {.device = device,
           .label = device_label(device->info()),
           .pipelines = std::make_shared<GpuPipelines>(*device)};

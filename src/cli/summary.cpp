@@ -26,7 +26,7 @@ std::string human_line(const Scene& scene, const nlohmann::ordered_json& s, cons
 nlohmann::ordered_json summarize(const Setup& setup, const Machine& machine, const Outcome& outcome) {
   const Stretch stretched = stretch(setup.model, outcome.state);
   const double time_s = outcome.state.time_s;
-  return {{"device", machine.device_label},
+  return {{"device", machine.device_label()},
           {"solver", std::string(setup.solver->name)},
           {"precision", setup.scene().solver.precision},
           {"substeps", machine.simulation->plan().substeps},

@@ -17,9 +17,10 @@ Exit run_view(const Options& o) {
   if (!o.scenes.empty())
     find_scene(o.scenes.front());  // a slip of the keyboard is said without a display, too
   if (!o.scenes.empty()) window.scene = o.scenes.front();
-  window.overrides =
-      overrides_of(with_chosen_setting(o, window.scene, [&](const Scene&) { return o.time_or_default_s(); }));
-  window.device = o.device;
+  const Options chosen =
+      with_chosen_setting(o, window.scene, [&](const Scene&) { return o.time_or_default_s(); });
+  window.overrides = overrides_of(chosen);
+  window.device = chosen.device;
   window.kernel = o.kernel;
   window.validation = o.validation;
   window.force_staging = o.force_staging;

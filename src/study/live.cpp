@@ -12,6 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kPart_s = 0.03;  // of the work on the CPU in one go
+
 double ms_since(Clock::time_point began) {
   return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
 }
@@ -41,7 +43,9 @@ LiveError::LiveError(const Bench& bench, const Model& model, const Setting& sett
       model_(with_setting(model, {setting.solver, setting.precision, substeps_})) {
   const Solver& solver = find_solver(setting.solver);
   if (bench.device == nullptr) {
-    copy_ = bench.on_host(model_, solver, setting.precision);
+    auto on_host = bench.on_host(model_, solver, setting.precision);
+    on_host_ = on_host.get();
+    copy_ = std::move(on_host);
     return;
   }
   auto on_gpu =
@@ -56,8 +60,8 @@ void LiveError::begin(const State& before, const State& after, double frame_s) {
   const auto began = Clock::now();
   copy_->write(before);
   after_ = after;
-  frame_s_ = frame_s;
   if (on_gpu_ != nullptr) on_gpu_->begin_frame(frame_s, substeps_);
+  if (on_host_ != nullptr) on_host_->begin_frame(frame_s, substeps_);
   under_way_ = true;
   spent_ms_ = ms_since(began);
 }
@@ -65,11 +69,7 @@ void LiveError::begin(const State& before, const State& after, double frame_s) {
 std::optional<double> LiveError::go_on() {
   if (!under_way_) return {};
   const auto began = Clock::now();
-  bool more = false;
-  if (on_gpu_ != nullptr)
-    more = on_gpu_->continue_frame();
-  else
-    copy_->advance(frame_s_, substeps_);
+  const bool more = on_gpu_ != nullptr ? on_gpu_->continue_frame() : on_host_->continue_frame(kPart_s);
   std::optional<double> error_m;
   if (!more) error_m = frame_distance(copy_->read(), after_);
   spent_ms_ += ms_since(began);

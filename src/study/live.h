@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/gpu_simulation.h"
+#include "sim/host_simulation.h"
 #include "study/kept_studies.h"
 
 namespace weft::study {
@@ -31,7 +32,7 @@ class LiveError {
   /// @param before, after  the frame's start and end, as read from the running cloth
   void begin(const State& before, const State& after, double frame_s);
   bool under_way() const { return under_way_; }
-  /// The next part of the work, at most about 50 ms on a device (all of it on the CPU). Returns the RMS
+  /// The next part of the work, at most about 50 ms. Returns the RMS
   /// distance [m] over particles between the frame's end and its recomputation when that is done; infinite
   /// when a number is not finite.
   std::optional<double> go_on();
@@ -45,8 +46,9 @@ class LiveError {
   Model model_;
   std::unique_ptr<Simulation> copy_;
   GpuSimulation* on_gpu_ = nullptr;
+  HostSimulation* on_host_ = nullptr;
   State after_;
-  double frame_s_ = 0, cost_ms_ = 0, spent_ms_ = 0;
+  double cost_ms_ = 0, spent_ms_ = 0;
   bool under_way_ = false;
 };
 

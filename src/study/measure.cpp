@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "model/measures.h"
+#include "native/features.h"
 #include "plan/plan.h"
 #include "sim/gpu_simulation.h"
 #include "sim/native_simulation.h"
@@ -213,10 +214,18 @@ void time_further_runs(Run& run, const State& start, double time_s, const Measur
 
 std::span<const std::string_view> precisions() { return kPrecisions; }
 
-std::unique_ptr<Simulation> Bench::on_host(const Model& model, const Solver& solver,
-                                           const std::string& precision) const {
+std::unique_ptr<HostSimulation> Bench::on_host(const Model& model, const Solver& solver,
+                                               const std::string& precision) const {
   return native ? make_native_simulation(model, solver, precision)
-                : make_cpu_simulation(model, solver, precision);
+                : make_host_reference(model, solver, precision);
+}
+
+Bench Bench::without_device(bool native) {
+  if (!native) return {.device = nullptr, .label = "CPU reference"};
+  return {.device = nullptr,
+          .label = fmt::format("native ({})", native::find_kernels().name),
+          .pipelines = nullptr,
+          .native = true};
 }
 
 std::string unavailable(const Bench& bench, const Model& model, const Solver& solver,

@@ -6,7 +6,7 @@
 
 #include "gpu/device.h"
 #include "sim/gpu_pipelines.h"
-#include "sim/simulation.h"
+#include "sim/host_simulation.h"
 #include "study/point.h"
 #include "study/reference.h"
 
@@ -19,7 +19,9 @@ struct Bench {
   std::shared_ptr<GpuPipelines> pipelines = nullptr;  ///< shared by all runs on the device
   bool native = false;  ///< without a device: the CPU's vector units for what they run
   /// A simulation without a device.
-  std::unique_ptr<Simulation> on_host(const Model&, const Solver&, const std::string& precision) const;
+  std::unique_ptr<HostSimulation> on_host(const Model&, const Solver&, const std::string& precision) const;
+  /// Of the CPU's vector units, or of the reference.
+  static Bench without_device(bool native);
 };
 
 struct MeasureOptions {

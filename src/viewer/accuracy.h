@@ -16,7 +16,7 @@ class Accuracy {
   /// Over this time a study that is started here follows the cloth.
   static constexpr double kStudyTime_s = 0.5;
 
-  explicit Accuracy(gpu::Device& device) : device_(device), label_(device.info().label()), watch_(device) {}
+  Accuracy() = default;
   /// Cancels a study that runs.
   ~Accuracy() = default;
   Accuracy(const Accuracy&) = delete;
@@ -47,8 +47,7 @@ class Accuracy {
  private:
   void find_study(const RunningScene& running);
 
-  gpu::Device& device_;
-  std::string label_;
+  std::string label_;  // of what computes the running cloth
   LiveWatch watch_;
   std::optional<study::Study> study_;
   std::vector<study::Point> points_;

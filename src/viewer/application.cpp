@@ -37,13 +37,12 @@ std::filesystem::path log_file(const ViewerOptions& options) {
 }
 
 gpu::DeviceOptions device_options(const ViewerOptions& options) {
-  if (options.device == "cpu" || options.device == "native")
-    throw error(Exit::usage,
-                "--device is {}; the window draws what a Vulkan device computes (weft devices lists them; "
-                "weft render "
-                "and weft simulate know {})",
-                options.device, options.device);
-  return {.choice = options.device,
+  if (options.device == "cpu")
+    throw Error(
+        Exit::usage,
+        "--device is cpu; the window shows what a Vulkan device or native computes (weft devices lists "
+        "them; weft render and weft simulate know cpu)");
+  return {.choice = options.device == "native" ? "" : options.device,
           .validation = options.validation,
           .force_staging = options.force_staging,
           .instance_extensions = Window::instance_extensions(),
@@ -60,6 +59,15 @@ const gpu::Device& allowed(const gpu::Device& device) {
                 "lists them), install its Vulkan driver, or unset WEFT_REQUIRE_GPU",
                 device.info().name);
   return device;
+}
+
+/// As `weft simulate` does it: native where nobody speaks of Vulkan and the device is a software one.
+ComputeOn compute_on(const ViewerOptions& options, const gpu::Device& device) {
+  if (options.device == "native") return ComputeOn::native;
+  const bool speaks_of_vulkan = !options.device.empty() || !options.kernel.empty() ||
+                                !options.shader_dir.empty() || options.validation || options.force_staging ||
+                                std::getenv("WEFT_KERNEL") != nullptr;
+  return speaks_of_vulkan || !device.info().software ? ComputeOn::device : ComputeOn::native_or_device;
 }
 
 float content_scale(const Window& window) {
@@ -86,7 +94,7 @@ Application::Application(const ViewerOptions& options)
       surface_(allowed(device_), window_),
       swapchain_(device_, surface_, options.present_mode),
       ui_scale_(content_scale(window_)),
-      running_(device_, options.overrides, options.scene, options.kernel),
+      running_(device_, options.overrides, options.scene, options.kernel, compute_on(options, device_)),
       gui_(device_, window_, swapchain_, ui_scale_),
       painter_(device_, swapchain_, gui_, options.samples),
       controls_(window_, gui_),
@@ -103,7 +111,9 @@ Application::Application(const ViewerOptions& options)
   view_.camera = view_.home = default_camera(running_.shown(), view_.area.aspect());
   window_.set_title("Weft: " + running_.scene().title);
   if (device_.info().software)
-    view_.say(fmt::format("{} is a software device: no GPU is used", device_.info().name), 6.0);
+    view_.say(
+        fmt::format("no GPU is used: {} computes, {} draws", running_.computed_by(), device_.info().label()),
+        6.0);
   if (!running_.warnings().empty()) view_.say(running_.warnings().front(), 8.0);
 }
 
@@ -229,7 +239,7 @@ void Application::show_accuracy() {
     accuracy_.reset();
     return;
   }
-  if (!accuracy_) accuracy_ = std::make_unique<Accuracy>(device_);
+  if (!accuracy_) accuracy_ = std::make_unique<Accuracy>();
   attempt([&] {
     accuracy_->follow(running_);
     AccuracyWishes wishes = draw_accuracy_panel(running_, *accuracy_);
@@ -356,7 +366,8 @@ PanelFacts Application::facts() const {
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
   facts.costs = &costs_;
-  facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
+  if (running_.on_gpu() != nullptr)
+    facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
   if (facts.validating) facts.validation_messages = device_.validation_messages().size();
   return facts;
 }

@@ -31,17 +31,18 @@ void Application::log() {
   const Camera& camera = view_.camera;
   const auto flag = [](bool on) { return on ? 1 : 0; };
   const std::string settings = fmt::format(
-      "scene={} paused={} resolution={} speed={:.3f} membrane={:.6g} smooth={} wireframe={} heat={} help={} "
+      "scene={} native={} paused={} resolution={} speed={:.3f} membrane={:.6g} smooth={} wireframe={} "
+      "heat={} help={} "
       "overlay={} "
       "timings={} accuracy={} study={} solver={} panels={} quit_question={} filming={} error={} hand={} "
       "hand_pins={} pins={} minimised={} "
       "size={}x{} rebuilds={}",
-      running_.which(), flag(running_.paused()), running_.model().grid.nx, running_.pacer().speed(),
-      running_.scene().material.membrane_n_m, flag(view_.look.shading == Shading::smooth),
-      flag(view_.look.wireframe), flag(view_.look.heat), flag(view_.help), flag(view_.overlay),
-      flag(view_.timings), flag(view_.accuracy), accuracy_text(accuracy_.get()), running_.scene().solver.name,
-      flag(view_.panels), flag(view_.ask_quit), flag(view_.filming),
-      flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
+      running_.which(), flag(running_.on_gpu() == nullptr), flag(running_.paused()), running_.model().grid.nx,
+      running_.pacer().speed(), running_.scene().material.membrane_n_m,
+      flag(view_.look.shading == Shading::smooth), flag(view_.look.wireframe), flag(view_.look.heat),
+      flag(view_.help), flag(view_.overlay), flag(view_.timings), flag(view_.accuracy),
+      accuracy_text(accuracy_.get()), running_.scene().solver.name, flag(view_.panels), flag(view_.ask_quit),
+      flag(view_.filming), flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
       running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
       window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
   const std::string figures = fmt::format(

@@ -73,7 +73,10 @@ void EffectCosts::sort_passes(const Scene& scene) {
 }
 
 void EffectCosts::start_trial(RunningScene& running) {
-  trial_ = std::make_unique<EffectTrial>(device_, running.simulation());
+  const auto pipelines = std::make_shared<GpuPipelines>(device_);
+  trial_ = std::make_unique<EffectTrial>(running.simulation(), [&running, pipelines](const Model& model) {
+    return running.copy_of(model, pipelines);
+  });
 }
 
 std::string EffectCosts::text(std::string_view effect) const {

@@ -26,26 +26,24 @@ std::vector<std::string> removable_effects(const Scene& scene) {
   return names;
 }
 
-EffectTrial::EffectTrial(gpu::Device& device, GpuSimulation& running)
-    : device_(device),
+EffectTrial::EffectTrial(DrawnSimulation& running, CopyMaker make_copy)
+    : make_copy_(std::move(make_copy)),
       scene_(running.model().scene),
       state_(running.read()),
-      pipelines_(std::make_shared<GpuPipelines>(device)),
       effects_(removable_effects(running.model().scene)) {
   scene_.solver.substeps = running.plan().substeps;
 }
 
 EffectTrial::Copy EffectTrial::copy_of(const Scene& scene) const {
   Copy copy;
-  copy.simulation = GpuSimulation::create(device_, build_model(scene), find_solver(scene.solver.name),
-                                          {.pipelines = pipelines_});
+  copy.simulation = make_copy_(build_model(scene));
   copy.simulation->write(state_);
   return copy;
 }
 
 /// Returns whether the copy's frame is unfinished.
 bool EffectTrial::frame_part(Copy& copy) {
-  GpuSimulation& simulation = *copy.simulation;
+  DrawnSimulation& simulation = *copy.simulation;
   if (!copy.under_way) simulation.begin_frame(scene_.solver.frame_s, scene_.solver.substeps);
   copy.under_way = simulation.continue_frame();
   simulation.wait();

@@ -1,6 +1,7 @@
 // What an effect costs that is folded into a pass with others: frames with and without it, in turn, on
 // copies of the running cloth.
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/gpu_simulation.h"
+#include "sim/drawn_simulation.h"
 
 namespace weft {
 
@@ -26,7 +27,9 @@ class EffectTrial {
  public:
   /// Reads the state; makes no copy yet.
   /// @param running   the cloth; its substeps a frame are kept, whatever is left out
-  EffectTrial(gpu::Device& device, GpuSimulation& running);
+  /// @param make_copy  a simulation of another model where the running one is computed
+  using CopyMaker = std::function<std::unique_ptr<DrawnSimulation>(const Model&)>;
+  EffectTrial(DrawnSimulation& running, CopyMaker make_copy);
   EffectTrial(const EffectTrial&) = delete;
   EffectTrial& operator=(const EffectTrial&) = delete;
 
@@ -39,7 +42,7 @@ class EffectTrial {
 
  private:
   struct Copy {
-    std::unique_ptr<GpuSimulation> simulation;
+    std::unique_ptr<DrawnSimulation> simulation;
     std::vector<double> frames_ms;
     bool under_way = false;
   };
@@ -47,10 +50,9 @@ class EffectTrial {
   bool frame_part(Copy& copy);
   void settle();
 
-  gpu::Device& device_;
+  CopyMaker make_copy_;
   Scene scene_;
   State state_;
-  std::shared_ptr<GpuPipelines> pipelines_;
   std::vector<std::string> effects_;
   std::size_t next_ = 0;
   std::optional<Copy> with_, without_;

@@ -71,10 +71,7 @@ void LiveWatch::take(RunningScene& running) {
   history_.add(running.model(), frame->after);
   if (start >= next_error_ && !(copy_ && copy_->under_way()) && trouble_.empty()) {
     try {
-      if (!copy_)
-        copy_ = std::make_unique<study::LiveError>(
-            study::Bench{.device = &device_, .label = {}, .pipelines = running.pipelines()}, running.model(),
-            setting_);
+      if (!copy_) copy_ = std::make_unique<study::LiveError>(running.bench(), running.model(), setting_);
       copy_->begin(frame->before, frame->after, frame->frame_s);
       begun_s_ = frame->after.time_s;
     } catch (const Error& reason) {  // no room beside the cloth

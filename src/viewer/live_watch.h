@@ -21,8 +21,6 @@ struct FrameError {
 
 class LiveWatch {
  public:
-  explicit LiveWatch(gpu::Device& device) : device_(device) {}
-
   /// Once a picture: the next part of what is under way, at most about 50 ms on the device.
   void follow(RunningScene& running);
 
@@ -42,7 +40,6 @@ class LiveWatch {
   void go_on();
   void measure_pace(const RunningScene&);
 
-  gpu::Device& device_;
   std::unique_ptr<study::LiveError> copy_;
   study::History history_{600};
   std::optional<FrameError> error_;

@@ -26,9 +26,14 @@ void line(const ImVec4& color, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void device_lines(const PanelFacts& facts) {
-  line(facts.device);
-  if (facts.software) line(kWarning, "software device: no GPU is used");
+void device_lines(const RunningScene& running, const PanelFacts& facts) {
+  const bool native = running.on_gpu() == nullptr;
+  if (native) line(running.computed_by());
+  line(native ? "drawn by " + facts.device : facts.device);
+  if (!running.why_not_native().empty())
+    line(kWarning,
+         fmt::format("{}: {}", native ? "the reference runs" : "not on native", running.why_not_native()));
+  if (facts.software) line(kWarning, native ? "no GPU is used" : "software device: no GPU is used");
 }
 
 /// Two decimals, or two digits of what is too slow for them.
@@ -92,7 +97,7 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   ImGui::Begin("numbers", nullptr, kNote);
   const Grid& grid = running.model().grid;
   const RunFigures& figures = running.figures();
-  device_lines(facts);
+  device_lines(running, facts);
   pace_lines(running, facts);
   line(fmt::format("{} x {} = {} particles", grid.nx, grid.ny, grid.count()));
   line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));

@@ -156,7 +156,7 @@ void Painter::record(VkCommandBuffer commands, const RunningScene& running, cons
                      const SwapchainImage& image, std::uint32_t slot) {
   const VkExtent2D extent{scene_image_.options().width, scene_image_.options().height};
   change(commands, scene_image_.handle(), kForgotten, kDrawn);
-  const GpuSimulation& simulation = running.simulation();
+  const DrawnSimulation& simulation = running.simulation();
   renderer_->draw(commands, {scene_image_.view(), extent}, simulation.draw_buffers(), request.camera,
                   simulation.time_s(), request.look, slot);
   change(commands, scene_image_.handle(), kDrawn, kCopiedFrom);

@@ -148,8 +148,9 @@ bool substeps_slider(Scene& scene, std::uint32_t running) {
 }
 
 void kernel_choice(const RunningScene& running, const PanelFacts& facts, PanelWishes& wishes) {
+  if (running.on_gpu() == nullptr) return;
   const std::string& asked = running.kernel();
-  const std::string running_now = describe(running.simulation().kernel().kernel);
+  const std::string running_now = describe(running.on_gpu()->kernel().kernel);
   const std::string shown = asked == "auto" ? "auto: " + running_now : running_now;
   if (ImGui::BeginCombo("kernel", shown.c_str())) {
     if (ImGui::Selectable("auto", asked == "auto")) wishes.kernel = "auto";

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
 #include "model/carry.h"
 #include "model/measures.h"
+#include "sim/host_drawn.h"
+#include "sim/native_simulation.h"
 
 namespace weft {
 namespace {
@@ -32,10 +35,11 @@ std::string kernel_or_auto(std::string name) {
 }  // namespace
 
 RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const std::string& which,
-                           std::string kernel)
+                           std::string kernel, ComputeOn compute_on)
     : device_(device),
       overrides_(std::move(overrides)),
       kernel_(kernel_or_auto(std::move(kernel))),
+      compute_on_(compute_on),
       pipelines_(std::make_shared<GpuPipelines>(device)),
       pacer_(1.0 / 60.0) {
   open(which);
@@ -131,11 +135,10 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   if (!figures_.kept_plan) {
     std::optional<State> state;
     if (keep_state) state = carry_state(simulation_->model(), simulation_->read(), model);
-    std::unique_ptr<GpuSimulation> next_one = made(model);
+    std::unique_ptr<DrawnSimulation> next_one = made(model);
     if (state) next_one->write(*state);
-    simulation_ = std::move(next_one);
+    take(std::move(next_one));
     figures_.frame_ms = figures_.expected_ms = 0.0;  // another cloth's say nothing of this one
-    ++version_;
   }
   scene_ = next;
   shown_ = simulation_->model();
@@ -150,7 +153,38 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
 }
 
-std::unique_ptr<GpuSimulation> RunningScene::made(const Model& model) const {
+std::unique_ptr<DrawnSimulation> RunningScene::made(const Model& model) {
+  native_lacks_.clear();
+  if (compute_on_ == ComputeOn::device) return made_on_device(model);
+  const Solver& solver = find_solver(model.scene.solver.name);
+  native_lacks_ = native_lacks(model, solver, model.scene.solver.precision);
+  if (!native_lacks_.empty() && compute_on_ == ComputeOn::native_or_device) return made_on_device(model);
+  return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
+}
+
+void RunningScene::take(std::unique_ptr<DrawnSimulation> next) {
+  simulation_ = std::move(next);
+  on_gpu_ = dynamic_cast<GpuSimulation*>(simulation_.get());
+  ++version_;
+}
+
+std::unique_ptr<DrawnSimulation> RunningScene::copy_of(const Model& model,
+                                                       const std::shared_ptr<GpuPipelines>& pipelines) const {
+  const Solver& solver = find_solver(model.scene.solver.name);
+  if (on_gpu_ != nullptr) return GpuSimulation::create(device_, model, solver, {.pipelines = pipelines});
+  return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
+}
+
+study::Bench RunningScene::bench() const {
+  if (on_gpu_ == nullptr) return study::Bench::without_device(true);
+  return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
+}
+
+std::string RunningScene::computed_by() const {
+  return on_gpu_ != nullptr ? device_.info().label() : simulation_->device_name();
+}
+
+std::unique_ptr<GpuSimulation> RunningScene::made_on_device(const Model& model) const {
   const Solver& solver = find_solver(model.scene.solver.name);
   GpuSimulationOptions options{
       .pipelines = pipelines_, .kernel = kernel_ == "auto" ? "" : kernel_, .trial = KernelTrial::never};
@@ -163,6 +197,9 @@ std::unique_ptr<GpuSimulation> RunningScene::made(const Model& model) const {
 }
 
 void RunningScene::set_kernel(const std::string& name) {
+  if (on_gpu_ == nullptr)
+    throw Error(Exit::usage,
+                "the kernels are those of a Vulkan device's shaders, and native computes this cloth");
   if (name != "auto") named_kernel(device_, simulation_->plan(), name);
   const std::string before = std::exchange(kernel_, kernel_or_auto(name));
   release();
@@ -217,8 +254,7 @@ void RunningScene::grab(const State& state, const Pick& pick) {
   if (!simulation_->adopt(held)) {
     auto with_pin = made(held);
     with_pin->write(state);
-    simulation_ = std::move(with_pin);
-    ++version_;
+    take(std::move(with_pin));
   }
   mid_frame_ = false;
   pieces_left_ = 0;
@@ -238,7 +274,7 @@ void RunningScene::begin_piece() {
   const std::uint32_t substeps = simulation_->plan().substeps;
   if (pieces_left_ == 0) {
     pieces_ = pieces_left_ = hand_.holds() ? hand_.pieces(model().grid, frame_s, substeps) : 1;
-    frame_wall_ms_ = frame_part_s_ = 0.0;
+    frame_wall_ms_ = frame_computed_ms_ = frame_part_s_ = 0.0;
     pacer_.begin_frame();
     watch_start();
   }
@@ -255,13 +291,18 @@ bool RunningScene::continue_frame() {
   const double before_s = simulation_->time_s();
   mid_frame_ = simulation_->continue_frame();
   simulation_->wait();
+  if (!mid_frame_ && on_gpu_ == nullptr) {
+    const std::vector<double> steps = simulation_->step_ms();
+    frame_computed_ms_ += std::accumulate(steps.begin(), steps.end(), 0.0);
+  }
   note_progress(simulation_->time_s() - before_s, Milliseconds(Clock::now() - start).count());
   if (!mid_frame_) stop_if_diverged();
   if (diverged()) return false;
   if (mid_frame_ || --pieces_left_ > 0) return true;
   watch_end();
-  figures_.frame_ms =
-      figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * frame_wall_ms_ : frame_wall_ms_;
+  // The host computes on while a picture is drawn.
+  const double took_ms = on_gpu_ != nullptr ? frame_wall_ms_ : frame_computed_ms_;
+  figures_.frame_ms = figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * took_ms : took_ms;
   return false;
 }
 

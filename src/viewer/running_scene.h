@@ -10,11 +10,19 @@
 
 #include "scene/reader.h"
 #include "sim/gpu_simulation.h"
+#include "study/measure.h"
 #include "viewer/hand.h"
 #include "viewer/pacing.h"
 #include "viewer/substep_budget.h"
 
 namespace weft {
+
+/// Where a window's cloth is computed; a Vulkan device draws it in any case.
+enum class ComputeOn {
+  device,            ///< the device that draws
+  native_or_device,  ///< the CPU's vector units; what they lack on the device
+  native,            ///< the CPU's vector units; what they lack on the reference
+};
 
 /// Numbers about the run that the overlay shows.
 struct RunFigures {
@@ -43,7 +51,8 @@ class RunningScene {
  public:
   /// @param kernel  one of kernel_names(), or empty for auto; auto takes what is remembered and tries nothing
   /// @throws Error as load_scene and GpuSimulation::create do
-  RunningScene(gpu::Device&, SceneOverrides overrides, const std::string& which, std::string kernel = {});
+  RunningScene(gpu::Device&, SceneOverrides overrides, const std::string& which, std::string kernel = {},
+               ComputeOn compute_on = ComputeOn::device);
 
   /// Opens another scene at its start.
   void open(const std::string& which);
@@ -94,16 +103,24 @@ class RunningScene {
   void release();
 
   const Scene& scene() const { return scene_; }
-  /// The compute pipelines made so far, for a copy of the running cloth.
-  const std::shared_ptr<GpuPipelines>& pipelines() const { return pipelines_; }
+  /// Where copies of the running cloth, or studies of it, are computed as it is.
+  study::Bench bench() const;
+  /// The simulation when the device computes it, with its kernel; else null.
+  const GpuSimulation* on_gpu() const { return on_gpu_; }
+  /// Another simulation of the same kind as the running one.
+  std::unique_ptr<DrawnSimulation> copy_of(const Model& model,
+                                           const std::shared_ptr<GpuPipelines>& pipelines) const;
+  /// What computes, in words; and why, where that is not what was asked for.
+  std::string computed_by() const;
+  const std::string& why_not_native() const { return native_lacks_; }
   /// The model as it is drawn: without the pins that the hand made, which may be anywhere by now.
   const Model& shown() const { return shown_; }
   std::uint64_t shown_version() const { return shown_version_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   const std::vector<HandPin>& hand_pins() const { return hand_pins_; }
   const Model& model() const { return simulation_->model(); }
-  GpuSimulation& simulation() { return *simulation_; }
-  const GpuSimulation& simulation() const { return *simulation_; }
+  DrawnSimulation& simulation() { return *simulation_; }
+  const DrawnSimulation& simulation() const { return *simulation_; }
   Pacer& pacer() { return pacer_; }
   Hand& hand() { return hand_; }
   const Hand& hand() const { return hand_; }
@@ -123,7 +140,10 @@ class RunningScene {
   Scene composed(const Scene& scene) const;
   /// @param anew  build every pipeline again, even for the same plan
   void adopt(const Scene& next, bool keep_state, bool anew = false);
-  std::unique_ptr<GpuSimulation> made(const Model& model) const;
+  /// On the device or on the host, as native_lacks_ was found for this model.
+  std::unique_ptr<DrawnSimulation> made(const Model& model);
+  std::unique_ptr<GpuSimulation> made_on_device(const Model& model) const;
+  void take(std::unique_ptr<DrawnSimulation> next);
   void begin_again();
   void begin_piece();
   bool continue_frame();
@@ -136,13 +156,16 @@ class RunningScene {
   gpu::Device& device_;
   SceneOverrides overrides_;
   std::string kernel_;
+  ComputeOn compute_on_;
+  std::string native_lacks_;  ///< why the kernels do not run the latest simulation that was made
   std::string which_;
   Scene scene_;
   Model shown_;
   std::vector<std::string> warnings_;
   std::vector<HandPin> hand_pins_;
   std::shared_ptr<GpuPipelines> pipelines_;
-  std::unique_ptr<GpuSimulation> simulation_;
+  std::unique_ptr<DrawnSimulation> simulation_;
+  GpuSimulation* on_gpu_ = nullptr;  ///< simulation_, when it is one
   Pacer pacer_;
   XpbdStandIn stand_in_;
   std::optional<std::uint64_t> own_needed_of_;  ///< the shown_version that own_needed_ belongs to
@@ -152,7 +175,7 @@ class RunningScene {
   bool paused_ = false, mid_frame_ = false;
   std::string divergence_text_;
   std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
-  double frame_wall_ms_ = 0.0, frame_part_s_ = 0.0;  // of the frame under way
+  double frame_wall_ms_ = 0.0, frame_computed_ms_ = 0.0, frame_part_s_ = 0.0;  // of the frame under way
   std::uint64_t version_ = 0, shown_version_ = 0;
   Clock::time_point next_measure_{};
   bool watch_wanted_ = false;

@@ -8,8 +8,8 @@
 
 namespace weft {
 
-StudyRun::StudyRun(std::string device_uuid, Scene scene, double time_s)
-    : device_uuid_(std::move(device_uuid)), scene_(std::move(scene)), time_s_(time_s) {
+StudyRun::StudyRun(std::string device_uuid, bool native, Scene scene, double time_s)
+    : device_uuid_(std::move(device_uuid)), native_(native), scene_(std::move(scene)), time_s_(time_s) {
   progress_.doing = "starting";
   thread_ = std::thread([this] { work(); });
 }
@@ -22,7 +22,7 @@ StudyRun::~StudyRun() {
 void StudyRun::work() {
   try {
     std::unique_ptr<gpu::Device> device;
-    study::Bench bench{.device = nullptr, .label = "CPU reference"};
+    study::Bench bench = study::Bench::without_device(native_);
     if (!device_uuid_.empty()) {
       device = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = device_uuid_});
       bench = {.device = device.get(),

@@ -23,8 +23,9 @@ struct StudyProgress {
 class StudyRun {
  public:
   /// Starts at once. What is finished is kept in the cache folder, also of a study that is cancelled.
-  /// @param device_uuid  empty: on the CPU reference
-  StudyRun(std::string device_uuid, Scene scene, double time_s);
+  /// @param device_uuid  empty: on the CPU
+  /// @param native       on the CPU: its vector units; else the reference
+  StudyRun(std::string device_uuid, bool native, Scene scene, double time_s);
   /// Cancels and waits, for the rest of one simulated frame.
   ~StudyRun();
   StudyRun(const StudyRun&) = delete;
@@ -40,6 +41,7 @@ class StudyRun {
   void work();
 
   std::string device_uuid_;
+  bool native_;
   Scene scene_;
   double time_s_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -1,6 +1,7 @@
 // The commands that need a Vulkan device: simulate and render on it, validate, bench.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/process.h"
@@ -10,10 +11,25 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// On the first Vulkan device unless `more` names another: where that is a software one, native is the
+/// default.
 Arguments on_device(const std::string& command, const Arguments& more) {
   Arguments all{command, "1", "--resolution", "9"};
   all.insert(all.end(), more.begin(), more.end());
+  if (std::ranges::count(more, "--device") == 0) all.insert(all.end(), {"--device", "0"});
   return all;
+}
+
+/// As `weft COMMAND 1 --resolution 9 MORE` chooses the device.
+Arguments by_default(const std::string& command, const Arguments& more) {
+  Arguments all{command, "1", "--resolution", "9"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+bool only_software() {
+  const Json devices = Json::parse(weft({"devices", "--format", "json"}).out);
+  return devices[0]["software"].get<bool>();
 }
 
 /// The two numbers of "… 77 …; plan: 77 …".
@@ -81,10 +97,9 @@ TEST(Device, ComputesInDouble) {
   const Json device = Json::parse(weft({"devices", "--format", "json"}).out)[0];
   if (!device["float64"].get<bool>()) GTEST_SKIP() << "no float64";
   const auto summary = [](const Arguments& more) {
-    Arguments all =
-        on_device("simulate", {"--precision", "f64", "--solver", "rk4", "--time", "0.1", "--format", "json"});
+    Arguments all{"--precision", "f64", "--solver", "rk4", "--time", "0.1", "--format", "json"};
     all.insert(all.end(), more.begin(), more.end());
-    return Json::parse(weft(all).out);
+    return Json::parse(weft(on_device("simulate", all)).out);
   };
   const Json on_gpu = summary({}), from_sources = summary({"--shaders", WEFT_SOURCE_DIR "/shaders"});
   EXPECT_EQ(on_gpu["precision"], "f64");
@@ -117,6 +132,77 @@ TEST(Device, DivergenceIsExitFour) {
       weft(on_device("simulate", {"--substeps", "1", "--set", "material.membrane=1e6", "--time", "5"}));
   EXPECT_CODE(result, 4);
   EXPECT_SAYS(result.err, "particle ");
+}
+
+// docs/cli.md "Devices": native where the best Vulkan device is a software one, said; with the same bits.
+TEST(DefaultDevice, IsNativeWhereThereIsNoGpu) {
+  NEEDS_VULKAN();
+  if (!only_software()) GTEST_SKIP() << "there is a GPU here";
+  const Result result = weft(by_default("simulate", {"--time", "0.1", "--format", "json"}));
+  EXPECT_CODE(result, 0);
+  const Json summary = Json::parse(result.out);
+  EXPECT_EQ(summary["device"].get<std::string>().rfind("native (", 0), 0u) << summary["device"];
+  EXPECT_SAYS(result.err, "no GPU is used");
+  const Json shaders = Json::parse(weft(on_device("simulate", {"--time", "0.1", "--format", "json"})).out);
+  EXPECT_SAYS(shaders["device"].get<std::string>(), "(software)");
+  EXPECT_EQ(shaders["hash"], summary["hash"]);
+  EXPECT_EQ(weft(by_default("simulate", {"--time", "0.1", "-q"})).err, "");
+}
+
+// What speaks of shaders or of Vulkan means the Vulkan device.
+TEST(DefaultDevice, IsTheVulkanDeviceWhereAnOptionSpeaksOfIt) {
+  NEEDS_VULKAN();
+  for (const Arguments& option :
+       {Arguments{"--kernel", "direct"}, Arguments{"--force-staging"}, Arguments{"--validation"},
+        Arguments{"--shaders", WEFT_SOURCE_DIR "/shaders"}}) {
+    Arguments all{"--time", "0.02", "--format", "json"};
+    all.insert(all.end(), option.begin(), option.end());
+    const Result result = weft(by_default("simulate", all));
+    EXPECT_CODE(result, 0);
+    EXPECT_EQ(Json::parse(result.out)["device"].get<std::string>().find("native"), std::string::npos)
+        << option[0];
+  }
+}
+
+// By default what native lacks goes to the Vulkan device, with --device native to the reference; one line.
+TEST(DefaultDevice, WhatNativeLacksGoesElsewhereAndIsSaid) {
+  NEEDS_VULKAN();
+  if (!only_software()) GTEST_SKIP() << "there is a GPU here";
+  const auto where = [](const Arguments& more, const std::string& who) {
+    Arguments all{"--time", "0.02", "--format", "json", "--solver", "rk4"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Result result = weft(by_default("simulate", all));
+    EXPECT_CODE(result, 0);
+    EXPECT_SAYS(result.err, "native has no vector code for the pass rk4_first");
+    EXPECT_SAYS(result.err, who + " runs this");
+    EXPECT_EQ(lines_of(result.err).size(), 1u) << result.err;
+    return Json::parse(result.out)["device"].get<std::string>();
+  };
+  EXPECT_SAYS(where({}, "software Vulkan device"), "(software)");
+  EXPECT_EQ(where({"--device", "native"}, "CPU reference"), "CPU reference (f32)");
+}
+
+TEST(DefaultDevice, NativeStopsADivergingRunAsTheDeviceDoes) {
+  const Result result = weft(by_default("simulate", {"--substeps", "1", "--set", "material.membrane=1e6",
+                                                     "--time", "5", "--device", "native"}));
+  EXPECT_CODE(result, 4);
+  EXPECT_SAYS(result.err, "particle ");
+}
+
+// Native writes the vertex buffers themselves; mapped or, where the host does not see them, staged.
+TEST(DefaultDevice, NativeIsDrawnToTheSamePixels) {
+  NEEDS_VULKAN();
+  if (!only_software()) GTEST_SKIP() << "a GPU ends in other bits";
+  const Scratch scratch;
+  const auto picture = [&](const std::string& name, const Arguments& more, const Environment& environment) {
+    Arguments all{"--time", "0.2", "--size", "160x90", "--out", scratch.path(name), "-q"};
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_CODE(weft(on_device("render", all), environment), 0);
+    return read_text(scratch.path(name));
+  };
+  const std::string shaders = picture("shaders.png", {}, {});
+  EXPECT_EQ(picture("native.png", {"--device", "native"}, {}), shaders);
+  EXPECT_EQ(picture("staged.png", {"--device", "native"}, {{"WEFT_FORCE_STAGING", "1"}}), shaders);
 }
 
 TEST(Validate, AgreesAndPrintsATable) {

@@ -13,7 +13,7 @@ namespace {
 std::string fails_and_leaves_files(const Environment& trouble, const Arguments& more = {}) {
   const Scratch scratch;
   write_text(scratch.path("state.csv"), "precious\n");
-  Arguments all{"simulate", "1", "--time", "1", "--out", scratch.path("state.csv")};
+  Arguments all{"simulate", "1", "--device", "0", "--time", "1", "--out", scratch.path("state.csv")};
   all.insert(all.end(), more.begin(), more.end());
   const Result result = weft(all, trouble);
   EXPECT_CODE(result, 3);
@@ -38,7 +38,7 @@ TEST(Trouble, ALostDeviceWhileFilmingLeavesNoHalfPicture) {
   NEEDS_VULKAN();
   const Scratch scratch;
   const Result result =
-      weft({"render", "1", "--time", "1", "--size", "64x48", "--out", scratch.path("a.png")},
+      weft({"render", "1", "--device", "0", "--time", "1", "--size", "64x48", "--out", scratch.path("a.png")},
            {{"WEFT_SIMULATE_DEVICE_LOSS_AFTER", "30"}});
   EXPECT_CODE(result, 3);
   EXPECT_EQ(scratch.file_count(), 0u);

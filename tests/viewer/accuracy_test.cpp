@@ -52,7 +52,7 @@ TEST_F(AccuracyTest, AWatchedFrameHasBothEnds) {
 TEST_F(AccuracyTest, TheLiveErrorIsOneFrameAgainstTwiceTheSubsteps) {
   RunningScene running = open();
   for (int k = 0; k < 10; ++k) one_frame(running);
-  LiveWatch watch(device());
+  LiveWatch watch;
   const auto begun = std::chrono::steady_clock::now();
   while (!watch.frame_error() && std::chrono::steady_clock::now() - begun < std::chrono::seconds(30)) {
     watch.follow(running);
@@ -87,7 +87,7 @@ TEST_F(AccuracyTest, ClosedItHoldsNothing) {
   gpu::Allocator& allocator = device().allocator();
   const std::uint64_t count = allocator.live_count(), bytes = allocator.live_bytes();
   {
-    Accuracy accuracy(device());
+    Accuracy accuracy;
     const auto begun = std::chrono::steady_clock::now();
     while (accuracy.watch().bytes() == 0 &&
            std::chrono::steady_clock::now() - begun < std::chrono::seconds(30)) {
@@ -107,7 +107,7 @@ TEST_F(AccuracyTest, ClosedItHoldsNothing) {
 TEST_F(AccuracyTest, AWishChoosesOnceAndAHandTakesItBack) {
   RunningScene running = open();
   study::keep_study(running.scene(), test::hand_made_study(running.scene(), label()));
-  Accuracy accuracy(device());
+  Accuracy accuracy;
   accuracy.follow(running);
   ASSERT_NE(accuracy.study(), nullptr);
   EXPECT_FALSE(accuracy.wanted()) << "nothing is wished";
@@ -143,7 +143,7 @@ TEST(StudyRun, EndsWithAKeptStudyOrSaysWhyNot) {
     return run.finished();
   };
   {
-    StudyRun run("", scene, scene.solver.frame_s);
+    StudyRun run("", false, scene, scene.solver.frame_s);
     ASSERT_TRUE(finish(run));
     EXPECT_EQ(run.failure(), "");
     EXPECT_EQ(run.progress().done, run.progress().total);
@@ -152,12 +152,12 @@ TEST(StudyRun, EndsWithAKeptStudyOrSaysWhyNot) {
   ASSERT_TRUE(kept);
   EXPECT_GT(kept->points.size(), 10u);
   scene.cloth.resolution = 65;
-  StudyRun cancelled("", scene, 5.0);
+  StudyRun cancelled("", false, scene, 5.0);
   cancelled.cancel();
   ASSERT_TRUE(finish(cancelled));
   EXPECT_NE(cancelled.failure().find("cancelled"), std::string::npos) << cancelled.failure();
   EXPECT_FALSE(study::kept_study(scene, "CPU reference", 5.0));
-  StudyRun nowhere("no-such-device", scene, 0.1);
+  StudyRun nowhere("no-such-device", false, scene, 0.1);
   ASSERT_TRUE(finish(nowhere));
   EXPECT_NE(nowhere.failure().find("no-such-device"), std::string::npos) << nowhere.failure();
 }

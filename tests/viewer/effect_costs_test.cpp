@@ -78,7 +78,9 @@ TEST_F(EffectCostsTest, SelfCollisionIsSeenToCost) {
   Scene scene = running.scene();
   add_visible_section(scene, "self_collision");
   running.apply(scene);
-  EffectTrial trial(device(), running.simulation());
+  const auto pipelines = std::make_shared<GpuPipelines>(device());
+  EffectTrial trial(running.simulation(),
+                    [&](const Model& model) { return running.copy_of(model, pipelines); });
   while (trial.go_on()) {
   }
   const EffectCost cost = trial.costs().at("self_collision");

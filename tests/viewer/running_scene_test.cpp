@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <glm/geometric.hpp>
 
@@ -16,8 +17,10 @@ namespace {
 
 class RunningSceneTest : public test::GpuTest {
  protected:
-  static RunningScene open(const std::string& which, std::uint32_t resolution = 24) {
-    return RunningScene(device(), {{"cloth.resolution=" + std::to_string(resolution)}}, which);
+  static RunningScene open(const std::string& which, std::uint32_t resolution = 24,
+                           ComputeOn compute_on = ComputeOn::device) {
+    return RunningScene(device(), {{"cloth.resolution=" + std::to_string(resolution)}}, which, {},
+                        compute_on);
   }
   static void frames(RunningScene& running, int count) {
     running.set_paused(true);
@@ -29,6 +32,19 @@ class RunningSceneTest : public test::GpuTest {
     }
   }
 };
+
+/// What must hold wherever the cloth is computed: on the device, or by native beside it.
+class RunningSceneAnywhere : public RunningSceneTest, public testing::WithParamInterface<ComputeOn> {
+ protected:
+  static RunningScene open(const std::string& which, std::uint32_t resolution = 24) {
+    return RunningSceneTest::open(which, resolution, GetParam());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(
+    On, RunningSceneAnywhere,
+    testing::Values(ComputeOn::device, ComputeOn::native_or_device, ComputeOn::native), [](const auto& info) {
+      return std::array{"Device", "NativeOrDevice", "Native"}[static_cast<std::size_t>(info.param)];
+    });
 
 TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
   const Model model = build_model(load_scene(find_scene("1"), {{"cloth.resolution=24"}}).scene);
@@ -56,11 +72,11 @@ TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
 TEST_F(RunningSceneTest, AnotherKernelGoesOnFromTheSameBits) {
   RunningScene running = open("1"), other = open("1");
   EXPECT_EQ(running.kernel(), "auto");
-  EXPECT_NE(running.simulation().kernel().how, "trial");
+  EXPECT_NE(running.on_gpu()->kernel().how, "trial");
   frames(running, 2);
   frames(other, 2);
   other.set_kernel("bands");
-  EXPECT_EQ(other.simulation().kernel().kernel.kind, KernelKind::bands);
+  EXPECT_EQ(other.on_gpu()->kernel().kernel.kind, KernelKind::bands);
   EXPECT_EQ(state_hash(other.simulation().read()), state_hash(running.simulation().read()));
   frames(running, 2);
   frames(other, 2);
@@ -71,14 +87,14 @@ TEST_F(RunningSceneTest, AnotherKernelGoesOnFromTheSameBits) {
   large.cloth.resolution = 400;  // more particles than bands is for
   other.apply(large);
   EXPECT_EQ(other.kernel(), "bands");
-  EXPECT_NE(other.simulation().kernel().kernel.kind, KernelKind::bands);
+  EXPECT_NE(other.on_gpu()->kernel().kernel.kind, KernelKind::bands);
   large.cloth.resolution = 24;
   other.apply(large);
-  EXPECT_EQ(other.simulation().kernel().kernel.kind, KernelKind::bands);
+  EXPECT_EQ(other.on_gpu()->kernel().kernel.kind, KernelKind::bands);
 }
 
 // docs/viewer.md: the window never shows another cloth's frame time, and tells an expected one meanwhile.
-TEST_F(RunningSceneTest, ANewClothHasNoFrameTimeUntilItsOwn) {
+TEST_P(RunningSceneAnywhere, ANewClothHasNoFrameTimeUntilItsOwn) {
   RunningScene running = open("1", 16);
   frames(running, 2);
   EXPECT_GT(running.figures().frame_ms, 0.0);
@@ -93,7 +109,7 @@ TEST_F(RunningSceneTest, ANewClothHasNoFrameTimeUntilItsOwn) {
   EXPECT_GT(running.figures().frame_ms, 0.0);
 }
 
-TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
+TEST_P(RunningSceneAnywhere, AParameterThatLeavesThePlanIsOnlyRewritten) {
   RunningScene running = open("1");
   frames(running, 3);
   const State before = running.simulation().read();
@@ -106,7 +122,7 @@ TEST_F(RunningSceneTest, AParameterThatLeavesThePlanIsOnlyRewritten) {
   EXPECT_EQ(running.version(), version);
   EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
   // From here on it is the changed scene: a fresh simulation of it, given the same state, goes the same way.
-  const auto fresh = GpuSimulation::create(device(), running.model(), find_solver("leapfrog"));
+  const auto fresh = running.copy_of(running.model(), std::make_shared<GpuPipelines>(device()));
   fresh->write(before);
   frames(running, 2);
   for (int k = 0; k < 2; ++k) fresh->advance(1.0 / 60.0, fresh->plan().substeps);
@@ -186,7 +202,7 @@ TEST_F(RunningSceneTest, XpbdStandsInWhereItIsAllowedAndSaysSo) {
   EXPECT_EQ(running.scene().solver.substeps, 0u) << "automatic, as it was";
 }
 
-TEST_F(RunningSceneTest, AnEffectLessIsAnotherPlanWithTheSameState) {
+TEST_P(RunningSceneAnywhere, AnEffectLessIsAnotherPlanWithTheSameState) {
   RunningScene running = open("1");
   frames(running, 3);
   const State before = running.simulation().read();
@@ -228,7 +244,7 @@ TEST_F(RunningSceneTest, ABadEditKeepsTheRunningScene) {
   EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before)) << "the state is carried over";
 }
 
-TEST_F(RunningSceneTest, TheHandMovesWhatItHoldsAndLetsGo) {
+TEST_P(RunningSceneAnywhere, TheHandMovesWhatItHoldsAndLetsGo) {
   for (const char* scene : {"1", "4"}) {  // with pins of its own, and without
     RunningScene running = open(scene);
     frames(running, 1);
@@ -251,7 +267,7 @@ TEST_F(RunningSceneTest, TheHandMovesWhatItHoldsAndLetsGo) {
   }
 }
 
-TEST_F(RunningSceneTest, PinsAreMadeAndUnmade) {
+TEST_P(RunningSceneAnywhere, PinsAreMadeAndUnmade) {
   RunningScene running = open("4");
   frames(running, 2);
   const std::uint32_t particle = running.model().grid.index(5, 7);
@@ -271,7 +287,7 @@ TEST_F(RunningSceneTest, PinsAreMadeAndUnmade) {
   EXPECT_GT(running.model().relative_inverse_mass[same], 0.0);
 }
 
-TEST_F(RunningSceneTest, ScenePinsCanBeTakenAway) {
+TEST_P(RunningSceneAnywhere, ScenePinsCanBeTakenAway) {
   RunningScene running = open("1");
   running.toggle_pin(0, running.simulation().read().position[0]);
   EXPECT_EQ(running.scene().pins.size(), 1u);
@@ -315,9 +331,9 @@ TEST_F(RunningSceneTest, AChangeOfResolutionIsQuick) {
 
 // Symplectic growth of at least e^0.6 a step beyond the bound: one frame of several steps is enough, and the
 // bound of the mean square speed lies a factor of 4 above what wind and gravity give.
-TEST_F(RunningSceneTest, DivergenceStopsTheSceneAtItsLastGoodState) {
+TEST_P(RunningSceneAnywhere, DivergenceStopsTheSceneAtItsLastGoodState) {
   RunningScene running(device(), {{"cloth.resolution=32", "solver.substeps=8", "material.membrane=20000"}},
-                       "1");
+                       "1", {}, GetParam());
   running.set_paused(true);
   for (int k = 0; k < 200 && !running.diverged(); ++k) {
     running.step();

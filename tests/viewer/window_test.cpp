@@ -132,6 +132,42 @@ TEST_F(WindowTest, ResizeScreenshotAndVideo) {
   expect_silence(window);
 }
 
+// The other tests of the window run the shaders, for --validation speaks of Vulkan. This one: what a person
+// does with a cloth that native computes on a thread of its own, in one window.
+TEST_F(WindowTest, NativeComputesWhatAPersonPullsAndChanges) {
+  WindowUnderTest window({"1", "--resolution", "64", "--device", "native"});
+  EXPECT_EQ(window.value("native"), "1");
+  window.wait_pictures(10);
+  EXPECT_GT(window.number("time_s"), 0.0);
+  EXPECT_GT(window.number("frame_ms"), 0.0);
+  window.act("mousemove --window $W 800 330 mousedown 1 mousemove_relative --sync 12 8");
+  EXPECT_TRUE(window.wait_for("hand", "1")) << "the cloth is held";
+  window.act("mousemove_relative --sync 60 20");
+  window.wait_pictures(3);
+  window.act("mouseup 1");
+  EXPECT_TRUE(window.wait_for("hand", "0"));
+  EXPECT_LT(window.number("stretch"), 1.0) << "a pull stretches, it does not explode";
+  window.key("p");
+  EXPECT_TRUE(window.wait_for("hand_pins", "1") || window.wait_for("pins", "1"));
+  drag_slider(window, 0.0);
+  EXPECT_TRUE(window.wait_for("resolution", "16"));
+  const double time_s = window.number("time_s");
+  window.wait_pictures(5);
+  EXPECT_GT(window.number("time_s"), time_s) << "the run goes on";
+  window.key("5");
+  EXPECT_TRUE(window.wait_for("scene", "5"));
+  window.key("space");
+  EXPECT_TRUE(window.wait_for("paused", "1"));
+  window.wait_pictures(2);
+  const double paused_s = window.number("time_s");
+  window.wait_pictures(3);
+  EXPECT_EQ(window.number("time_s"), paused_s);
+  window.key("r");
+  EXPECT_TRUE(window.wait_for("time_s", "0.000000"));
+  EXPECT_EQ(window.value("native"), "1");
+  expect_silence(window);
+}
+
 TEST_F(WindowTest, TheResolutionSliderCarriesTheClothOver) {
   WindowUnderTest window({"1", "--resolution", "24"});
   window.wait_pictures(10);
