@@ -60,7 +60,10 @@ class CpuSimulation : public HostSimulation {
   void run_block(Block block, std::uint32_t substep);
   void run_step(const PlanStep& step, std::uint32_t substep);
   /// Counts what has been computed of a step, and its time.
-  void count(const PlanStep& step, std::uint32_t times, Clock::time_point began);
+  void count(const PlanStep& step, std::uint32_t times, double ms);
+  static double ms_since(Clock::time_point began) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+  }
 
   Model model_;
   Plan plan_;

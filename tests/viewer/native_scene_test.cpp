@@ -67,7 +67,9 @@ TEST_F(NativeSceneTest, LookingAtAFrameUnderWayOnNativeChangesNothing) {
       EXPECT_NE(drawn->draw_buffers().position, VK_NULL_HANDLE);
       EXPECT_GE(drawn->time_s(), time_s);
       time_s = drawn->time_s();
-      if (frame == 1) EXPECT_TRUE(all_finite(drawn->read()));
+      if (frame == 1) {
+        EXPECT_TRUE(all_finite(drawn->read()));
+      }
     } while (drawn->continue_frame());
   }
   EXPECT_EQ(state_hash(whole->read()), state_hash(drawn->read()));

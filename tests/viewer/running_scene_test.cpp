@@ -40,11 +40,13 @@ class RunningSceneAnywhere : public RunningSceneTest, public testing::WithParamI
     return RunningSceneTest::open(which, resolution, GetParam());
   }
 };
-INSTANTIATE_TEST_SUITE_P(
-    On, RunningSceneAnywhere,
-    testing::Values(ComputeOn::device, ComputeOn::native_or_device, ComputeOn::native), [](const auto& info) {
-      return std::array{"Device", "NativeOrDevice", "Native"}[static_cast<std::size_t>(info.param)];
-    });
+std::string compute_on_name(const testing::TestParamInfo<ComputeOn>& tested) {
+  constexpr std::array<const char*, 3> kNames{"Device", "NativeOrDevice", "Native"};
+  return kNames[static_cast<std::size_t>(tested.param)];
+}
+INSTANTIATE_TEST_SUITE_P(On, RunningSceneAnywhere,
+                         testing::Values(ComputeOn::device, ComputeOn::native_or_device, ComputeOn::native),
+                         compute_on_name);
 
 TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
   const Model model = build_model(load_scene(find_scene("1"), {{"cloth.resolution=24"}}).scene);
