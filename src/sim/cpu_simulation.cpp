@@ -155,14 +155,16 @@ template <class T>
 bool CpuSimulation<T>::adopt(const Model& model) {
   Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
-  const bool new_masses = model.relative_inverse_mass != model_.relative_inverse_mass;
+  // Both give energy that depends on the state.
+  const bool anew = model.relative_inverse_mass != model_.relative_inverse_mass ||
+                    model.scene.material.strain_limit != model_.scene.material.strain_limit;
   const State state = read();
   under_way_ = false;
   budget_.adopt(model_, model);
   model_ = model;
   plan_ = std::move(next);
   model_changed();
-  if (new_masses)
+  if (anew)
     write(state);
   else
     buffers_written();
