@@ -22,6 +22,7 @@ target_link_libraries(weft_shaderc INTERFACE shaderc_combined glslang MachineInd
 add_library(weft_imgui INTERFACE)
 target_link_libraries(weft_imgui INTERFACE PkgConfig::IMGUI glfw Vulkan::Vulkan)
 
+find_path(TINYOBJ_INCLUDE tiny_obj_loader.h REQUIRED)
 find_path(STB_INCLUDE stb_image_write.h PATH_SUFFIXES stb REQUIRED)
 add_library(weft_stb INTERFACE)
 target_include_directories(weft_stb SYSTEM INTERFACE ${STB_INCLUDE})

@@ -18,7 +18,7 @@ struct View {
   mat4 clip;         // world to clip space; depth is 1 at the near plane and 0 infinitely far
   mat4 shadow_clip;  // world to the shadow map, orthographic, depth 0 nearest to the light
   vec3 eye_m;
-  float floor_m;    // the drawn floor's height
+  float floor_m;    // the drawn floor's height where x = z = 0
   vec3 ray_right;   // a picture's view ray is forward + x·right + y·up for x, y in −1…1
   float checker_m;  // edge of one floor square
   vec3 ray_up;
@@ -34,6 +34,7 @@ struct View {
   uint nx, ny;           // particles
   uint sphere_count;     // balls before this one are colliding spheres, the rest are pin heads
   uint ball_count;
+  vec3 floor_normal;      // unit vector
   vec4 balls[kMaxBalls];  // xyz = centre [m], w = drawn radius [m]
 };
 

@@ -39,6 +39,7 @@
   ROW(watch_parts, 31, uint, "fastest particle and energy of each piece of the cloth (watch.h)") \
   ROW(watch_state, 32, uint, "whether the state is sound, and what was found (watch.h)")         \
   ROW(kept_position, 33, real4, "m, of the last state that was sound")                           \
-  ROW(kept_velocity, 34, real4, "m/s, of the last state that was sound")
+  ROW(kept_velocity, 34, real4, "m/s, of the last state that was sound")                         \
+  ROW(distance_grids, 35, uint, "meshes: bits of float distances [m], grid by grid, x fastest")
 
 #endif

@@ -1,24 +1,7 @@
 // Contact of one particle with the spheres and the floor, swept, with Coulomb friction: docs/float-form.md,
 // "Contact". The including pass declares READS(real4, substeps) and includes dot.glsl (dot3) first.
 
-// Takes away the inward normal velocity relative to the collider, and friction from the rest.
-real3 respond(real3 v, real3 collider_velocity, real3 n, real friction) {
-  precise real3 u = v - collider_velocity;
-  precise real un = dot3(u, n);
-  if (un >= 0.0) return v;
-  precise real3 along = un * n;
-  precise real3 t = u - along;
-  precise real lt = sqrt(dot3(t, t));
-  precise real cut = friction * (-un);
-  precise real keep = 0.0;
-  if (lt > cut) {
-    precise real share = cut / lt;
-    keep = 1.0 - share;
-  }
-  precise real3 kept = keep * t;
-  precise real3 answer = collider_velocity + kept;
-  return answer;
-}
+#include "respond.glsl"
 
 // Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of
 // the reach; else p1. Shallower chords are particles sliding round the sphere.

@@ -7,6 +7,8 @@
 WEFT_SHARED_BEGIN
 
 WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
+WEFT_CONST uint kMaxSolids = 64u;              // documented limit of [[capsules]] and [[boxes]] together
+WEFT_CONST uint kMaxMeshes = 8u;               // documented limit of [[meshes]]
 WEFT_CONST uint kMaxMovedPins = 64u;           // documented limit of [[pins]] with keys
 WEFT_CONST uint kMovedPinsWide = 4096u;        // particles in a row of the passes over what they hold
 WEFT_CONST float kTinyLengthSquared = 1e-24f;  // m², guards 1/length of coincident particles
@@ -48,9 +50,35 @@ using Params = ParamsOf<float>;
 //   then two real4 a pin that moves, in scene order:
 //   [0] xyz = its offset at the drift's end [m]          w unused
 //   [1] xyz = its mean velocity during the drift [m/s]   w unused
+//   then ten real4 a capsule or box, capsules first, in scene order:
+//   [0] xyz = centre at the drift's end [m]              w = reach: radius + half thickness [m]
+//   [1] xyz = centre at the drift's start [m]            w = friction coefficient
+//   [2] xyz = the centre's velocity [m/s]                w = depth that stops a path at its entry [m]
+//   [3] xyz = angular velocity [rad/s]                   w unused
+//   [4] to [6] xyz = its own axes at the drift's end     w = half edges of the box inside the rounding [m]
+//   [7] to [9] xyz = its own axes at the drift's start   w unused
+//   then twelve real4 a mesh, in scene order: the ten of a box, whose half edges are not used, and
+//   [10] xyz = lowest corner of its distance grid in its own frame [m]  w = edge of a cell [m]
+//   [11] xyz = samples along its own axes                w = number of its first sample in distance_grids
+//   then three real4 with [aerodynamics]:
+//   [0] xyz = wind(t) [m/s], gusts included              w = share of the noise's next slice of time
+//   [1] xyz = where the noise's lattice is [cells]       w = 1/edge of its cells [1/m]
+//   [2] x = the slice of time  y = the noise's amplitude [m/s]  z, w = density/12 times drag, lift [kg/m³]
+//   then one real4 where the floor is tilted: xyz = its normal, w = what normal·x is on it [m]
 WEFT_CONST uint kRowHeadVec4s = 2u;
 WEFT_CONST uint kRowSphereVec4s = 3u;
 WEFT_CONST uint kRowPinVec4s = 2u;
+WEFT_CONST uint kRowSolidVec4s = 10u;
+WEFT_CONST uint kRowFloorVec4s = 1u;
+WEFT_CONST uint kRowMeshVec4s = 12u;
+WEFT_CONST uint kRowAirVec4s = 3u;
+WEFT_CONST uint kSolidNewtonSteps = 16u;  // in search of where a path enters a capsule or box
+
+WEFT_CONST int kNoisePeriodMask = 1023;   // the wind's noise repeats after so many cells
+WEFT_CONST float kNoiseFarthest = 1e6f;   // cells; farther out there is no noise of its own
+WEFT_CONST uint kMeshMarchSteps = 1024u;  // half cells of a distance grid that one drift is followed through
+WEFT_CONST uint kMeshBisections = 8u;     // in search of where a path enters a mesh
+WEFT_CONST uint kMeshProjections = 2u;    // onto a mesh's surface before the last one
 
 // A particle that a moving pin holds: its place is anchor + the pin's offset.
 WEFT_REAL_STRUCT(MovedPin) {

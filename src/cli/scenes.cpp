@@ -8,9 +8,13 @@ namespace {
 
 Exit run_scenes(const Options& o) {
   Table table{{"number", "name", "title", "file"}, {}};
-  int number = 0;
-  for (const AssetInfo& asset : list_scenes())
-    table.rows.push_back({++number, asset.name, asset.title, asset.file.string()});
+  const std::size_t numbered = numbered_scenes().size();
+  for (const AssetInfo& asset : list_scenes()) {
+    const std::size_t number = table.rows.size() + 1;
+    nlohmann::ordered_json shown = "";
+    if (number <= numbered) shown = number;
+    table.rows.push_back({shown, asset.name, asset.title, asset.file.string()});
+  }
   print_result(to_text(table, o.format));
   return Exit::ok;
 }

@@ -68,7 +68,7 @@ void print_reports(const Options& o, const std::vector<ValidationReport>& report
 std::vector<std::string> scenes_asked_for(const Options& o) {
   if (!o.scenes.empty()) return o.scenes;
   std::vector<std::string> names;
-  for (const AssetInfo& asset : list_scenes()) names.push_back(asset.name);
+  for (const AssetInfo& asset : numbered_scenes()) names.push_back(asset.name);
   return names;
 }
 

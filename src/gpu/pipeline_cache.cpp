@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
+#include "core/cache.h"
 #include "core/error.h"
 #include "gpu/log.h"
 #include "gpu/pipeline.h"
@@ -23,20 +23,7 @@ struct FileHeader {
 
 using Blob = std::vector<char>;
 
-/// FNV-1a, 64 bits.
-std::uint64_t checksum(const Blob& blob) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : blob) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
-std::filesystem::path cache_folder() {
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  if (xdg != nullptr && *xdg == '/') return std::filesystem::path(xdg) / "weft";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".cache" / "weft";
-  return {};
-}
+std::uint64_t checksum(const Blob& blob) { return fnv1a_64({blob.data(), blob.size()}); }
 
 /// Vulkan's own header (VkPipelineCacheHeaderVersionOne) must name this very device.
 bool is_of(const VkPhysicalDeviceProperties& device, const Blob& blob) {

@@ -5,9 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 
 #include "core/error.h"
+#include "model/distance_grid.h"
+#include "model/solids.h"
 #include "model/springs.h"
 
 namespace weft {
@@ -122,12 +125,22 @@ double deepest_penetration(const Model& model, const State& state) {
   const auto count = [&](double depth_m) {
     if (!(depth_m <= deepest_m)) deepest_m = depth_m;  // so that a NaN shows
   };
+  const std::vector<Solid> solids = solids_of(model.scene);
+  std::vector<SolidFrame> frames;
+  for (const Solid& solid : solids) frames.push_back(frame_at(solid, state.time_s));
   for (const glm::dvec3& x : state.position) {
-    if (model.scene.floor) count(model.scene.floor->height_m + model.half_thickness_m - x.y);
+    if (model.scene.floor) count(model.half_thickness_m - floor_plane(*model.scene.floor).above_m(x));
     for (const SphereSection& sphere : model.scene.spheres) {
       const double reach_m = sphere.radius_m + model.half_thickness_m;
       count(reach_m - glm::distance(x, sphere_center_at(sphere, state.time_s)));
     }
+    for (std::size_t k = 0; k < model.meshes.size(); ++k) {
+      const SolidFrame frame = frame_at(model.scene.meshes[k], state.time_s);
+      const glm::dvec3 own = glm::transpose(frame.axes) * (x - frame.center_m);
+      count(model.half_thickness_m - distance_at(*model.meshes[k], own));
+    }
+    for (std::size_t k = 0; k < solids.size(); ++k)
+      count(model.half_thickness_m - distance_from(solids[k], frames[k], x));
   }
   return deepest_m;
 }

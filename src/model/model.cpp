@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "model/distance_grid.h"
 #include "model/motion.h"
 #include "model/springs.h"
 #include "model/step_bound.h"
@@ -146,6 +147,16 @@ Model build_model(const Scene& scene) {
   model.springs = build_springs(scene.material, a, model.interior_mass_kg);
   model.bend_kappa_n_m = {scene.material.bend_weft() / (a * a), scene.material.bend_warp() / (a * a)};
   model.half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
+  std::size_t samples = 0;
+  for (const MeshSection& mesh : scene.meshes) {
+    model.meshes.push_back(load_distance_grid(scene, mesh, model.half_thickness_m));
+    samples += model.meshes.back()->distance.size();
+  }
+  if (samples > kMeshSamplesMax)
+    throw error(Exit::usage,
+                "{}: the meshes' distance grids have {} samples; at most {} are possible (lower "
+                "meshes.resolution)",
+                place(scene), samples, kMeshSamplesMax);
   for_each_spring(model,
                   [&](const SpringKind&, std::uint32_t, std::uint32_t, double) { ++model.spring_count; });
   model.bound = step_bound(model);

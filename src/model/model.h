@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct MovedParticle {
   glm::dvec3 anchor_m;  ///< its place at the cloth's start, without the pin's offset
 };
 
+struct DistanceGrid;  // model/distance_grid.h
+
 struct Model {
   Scene scene;
   Grid grid;
@@ -55,7 +58,8 @@ struct Model {
   double half_thickness_m = 0.0;               ///< of the cloth in contact; 0 without self-collision
   std::vector<std::uint32_t> moved_pins;       ///< pins with keys, as indices in scene.pins, ascending
   std::vector<MovedParticle> moved_particles;  ///< ascending; a particle of several pins is the first one's
-  std::uint64_t spring_count = 0;              ///< springs that exist and do not join two pinned particles
+  std::vector<std::shared_ptr<const DistanceGrid>> meshes;  ///< one of [[meshes]] each, in scene order
+  std::uint64_t spring_count = 0;  ///< springs that exist and do not join two pinned particles
   StepBound bound;
 
   bool bends() const { return bend_kappa_n_m[0] > 0.0 || bend_kappa_n_m[1] > 0.0; }

@@ -6,13 +6,25 @@
 
 namespace weft {
 
-glm::dvec3 place_at(const MotionKeys& keys, double time_s) {
+namespace {
+
+glm::dvec3 between_keys(const MotionKeys& keys, double time_s, glm::dvec3 MotionKey::*what) {
   const auto next = std::ranges::upper_bound(keys, time_s, {}, &MotionKey::time_s);
-  if (next == keys.begin()) return keys.front().place_m;
-  if (next == keys.end()) return keys.back().place_m;
+  if (next == keys.begin()) return keys.front().*what;
+  if (next == keys.end()) return keys.back().*what;
   const MotionKey &from = *(next - 1), &to = *next;
   const double share = (time_s - from.time_s) / (to.time_s - from.time_s);
-  return from.place_m + share * (to.place_m - from.place_m);
+  return from.*what + share * (to.*what - from.*what);
+}
+
+}  // namespace
+
+glm::dvec3 place_at(const MotionKeys& keys, double time_s) {
+  return between_keys(keys, time_s, &MotionKey::place_m);
+}
+
+glm::dvec3 rotation_at(const MotionKeys& keys, double time_s) {
+  return between_keys(keys, time_s, &MotionKey::rotation_deg);
 }
 
 glm::dvec3 velocity_before(const MotionKeys& keys, double time_s) {

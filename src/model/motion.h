@@ -8,6 +8,9 @@ namespace weft {
 /// @param keys  at least one, times ascending
 glm::dvec3 place_at(const MotionKeys& keys, double time_s);
 
+/// The angles of `keys` [°], each piecewise linear and held likewise.
+glm::dvec3 rotation_at(const MotionKeys& keys, double time_s);
+
 /// The slope between the keys that led to this moment [m/s]; 0 up to the first key and after the last.
 glm::dvec3 velocity_before(const MotionKeys& keys, double time_s);
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "model/distance_grid.h"
 #include "model/measures.h"
 #include "model/motion.h"
+#include "model/solids.h"
 #include "model/springs.h"
 #include "shared/watch.h"
 
@@ -32,12 +34,16 @@ double reaction_1_s(const Model& model) {
   return std::sqrt(stiffness_n_m / mass_kg);
 }
 
-/// Speed [m/s] of the fastest sphere or pin.
+/// Speed [m/s] of the fastest collider or pin.
 double mover_speed_m_s(const Scene& scene) {
   double fastest = 0.0;
   for (const SphereSection& sphere : scene.spheres)
     fastest =
         std::max(fastest, sphere.keys.empty() ? glm::length(sphere.velocity_m_s) : fastest_m_s(sphere.keys));
+  for (const Solid& solid : solids_of(scene))
+    fastest = std::max(fastest, fastest_m_s(*solid.section, extent_m(solid)));
+  for (const MeshSection& mesh : scene.meshes)  // no mesh reaches farther from its origin
+    fastest = std::max(fastest, fastest_m_s(mesh, kMeshFarthest_m));
   for (const PinSection& pin : scene.pins) fastest = std::max(fastest, fastest_m_s(pin.keys));
   return fastest;
 }
@@ -97,8 +103,15 @@ void SpeedBudget::elapse(const Scene& scene, double duration_s, std::uint32_t su
   given_m_s_ += 2.0 * std::max(0.0, mover_m_s - mover_m_s_) + reaction_1_s_ * moved_m;
   mover_m_s_ = std::max(mover_m_s_, mover_m_s);
   if (scene.gravity) given_m_s_ += glm::length(scene.gravity->acceleration_m_s2) * duration_s;
-  if (!scene.air || !scene.wind) return;
-  const double wind_m_s = glm::length(scene.wind->velocity_m_s) * (1.0 + std::abs(scene.wind->gust));
+  if (!scene.wind) return;
+  const double wind_m_s = glm::length(scene.wind->velocity_m_s) * (1.0 + std::abs(scene.wind->gust)) +
+                          std::sqrt(3.0) * scene.wind->noise_m_s;
+  if (scene.aerodynamics) {  // at up to twice the wind's speed, against it
+    const AerodynamicsSection& air = *scene.aerodynamics;
+    given_m_s_ += 2.0 * air.density_kg_m3 * (air.drag + air.lift) * wind_m_s * wind_m_s /
+                  scene.material.density_kg_m2 * duration_s;
+  }
+  if (!scene.air) return;
   given_m_s_ += scene.air->drag_kg_m2_s / scene.material.density_kg_m2 * wind_m_s * duration_s;
 }
 

@@ -1,9 +1,14 @@
 // Spring rows with bending folded in (docs/float-form.md "Constants") and schedule rows, in double.
 #include "passes/coefficients.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
+#include "model/distance_grid.h"
 #include "model/motion.h"
+#include "model/solids.h"
+#include "shared/params.h"
 
 namespace weft {
 namespace {
@@ -12,6 +17,48 @@ namespace {
 glm::dvec4 pair_row(const SpringKind& kind, double weight, double folded) {
   const double k = weight * kind.stiffness_n_m;
   return {k + folded, k * kind.rest_m, weight * kind.damping_n_s_m, 0.0};
+}
+
+/// A path less deep than this share of the body's inner radius is a chord of one sliding round it.
+constexpr double kChordDepth = 0.01;
+
+/// And less deep than this share of a cell of a mesh's grid.
+constexpr double kMeshChordDepth = 0.1;
+
+/// Where a body that is at `start` and then at `end` is and moves during the row's drift.
+SolidRow<double> moving_row(const SolidFrame& start, const SolidFrame& end, const KickDrift& row) {
+  SolidRow<double> out{};
+  out.center = end.center_m;
+  out.start = start.center_m;
+  if (row.drift_s > 0.0) {
+    out.velocity = (end.center_m - start.center_m) / row.drift_s;
+    out.spin = angular_velocity(start, end, row.drift_s);
+  }
+  for (int k = 0; k < 3; ++k) {
+    out.axes[k] = end.axes[k];
+    out.start_axes[k] = start.axes[k];
+  }
+  return out;
+}
+
+SolidRow<double> solid_row(const Model& model, const Solid& solid, const KickDrift& row) {
+  SolidRow<double> out =
+      moving_row(frame_at(solid, row.drift_time_s), frame_at(solid, row.drift_time_s + row.drift_s), row);
+  out.half = solid.half_m;
+  out.reach = solid.radius_m + model.half_thickness_m;
+  out.deep = kChordDepth * (out.reach + std::min({out.half.x, out.half.y, out.half.z}));
+  out.friction = solid.section->friction;
+  return out;
+}
+
+SolidRow<double> mesh_row(const Model& model, std::size_t mesh, const KickDrift& row) {
+  const MeshSection& section = model.scene.meshes[mesh];
+  SolidRow<double> out =
+      moving_row(frame_at(section, row.drift_time_s), frame_at(section, row.drift_time_s + row.drift_s), row);
+  out.reach = model.half_thickness_m;
+  out.deep = kMeshChordDepth * model.meshes[mesh]->cell_m;
+  out.friction = section.friction;
+  return out;
 }
 
 }  // namespace
@@ -40,8 +87,16 @@ double drag_rate(const Model& model) {
 SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
   const Scene& scene = model.scene;
   const double alpha = drag_rate(model);
-  SubstepRow<double> out{
-      alpha * wind_at(scene, row.kick_time_s), 0.0, row.kick_s, row.drift_s, row.predict_s, 0.0, {}, {}};
+  SubstepRow<double> out{alpha * wind_at(scene, row.kick_time_s),
+                         0.0,
+                         row.kick_s,
+                         row.drift_s,
+                         row.predict_s,
+                         0.0,
+                         {},
+                         {},
+                         {},
+                         {}};
   if (row.plain_air) {
     out.loss = alpha;
   } else if (alpha > 0.0) {  // 1 − e without cancellation
@@ -65,7 +120,57 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
     out.pins.push_back(
         {end, drifts ? (end - place_at(keys, row.drift_time_s)) / row.drift_s : glm::dvec3(0.0)});
   }
+  for (const Solid& solid : solids_of(scene)) out.solids.push_back(solid_row(model, solid, row));
+  for (std::size_t mesh = 0; mesh < model.meshes.size(); ++mesh)
+    out.meshes.push_back(mesh_row(model, mesh, row));
   return out;
+}
+
+std::uint32_t solid_count(const Model& model) {
+  return static_cast<std::uint32_t>(model.scene.capsules.size() + model.scene.boxes.size());
+}
+
+bool has_tilted_floor(const Model& model) { return model.scene.floor && !model.scene.floor->is_level(); }
+
+TiltRow<double> tilt_row_exact(const Model& model) {
+  const FloorPlane plane = floor_plane(*model.scene.floor);
+  return {plane.normal, glm::dot(plane.normal, plane.point_m) + model.half_thickness_m};
+}
+
+bool has_wind_noise(const Scene& scene) { return scene.wind && scene.wind->noise_m_s > 0.0; }
+
+AirRow<double> air_row_exact(const Model& model, const KickDrift& row) {
+  const Scene& scene = model.scene;
+  const double share = scene.aerodynamics->density_kg_m3 / 12.0;  // ½ of it, ½ of a cross product, a third
+  AirRow<double> air{};
+  air.wind = wind_at(scene, row.kick_time_s);
+  air.drag = share * scene.aerodynamics->drag;
+  air.lift = share * scene.aerodynamics->lift;
+  if (!has_wind_noise(scene)) return air;
+  const WindSection& wind = *scene.wind;
+  // The eddies drift with the mean wind (Taylor's frozen turbulence) and change as they go.
+  constexpr double kCells = shared::kNoisePeriodMask + 1.0;
+  const glm::dvec3 drifted = wind.velocity_m_s * (row.kick_time_s / wind.noise_scale_m);
+  for (int axis = 0; axis < 3; ++axis) air.origin[axis] = std::fmod(drifted[axis], kCells);
+  const double slices = row.kick_time_s / wind.noise_period_s;
+  air.slice = std::fmod(std::floor(slices), 0x1p20);
+  air.slice_share = slices - std::floor(slices);
+  air.slice_share *= air.slice_share * (3.0 - 2.0 * air.slice_share);
+  air.cells_1_m = 1.0 / wind.noise_scale_m;
+  air.noise_m_s = wind.noise_m_s;
+  return air;
+}
+
+RowLayout row_layout(const Model& model) {
+  RowLayout at{};
+  at.pins = shared::kRowHeadVec4s +
+            shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size());
+  at.solids = at.pins + shared::kRowPinVec4s * static_cast<std::uint32_t>(model.moved_pins.size());
+  at.meshes = at.solids + shared::kRowSolidVec4s * solid_count(model);
+  at.air = at.meshes + shared::kRowMeshVec4s * static_cast<std::uint32_t>(model.scene.meshes.size());
+  at.floor = at.air + (model.scene.aerodynamics ? shared::kRowAirVec4s : 0);
+  at.stride = at.floor + (has_tilted_floor(model) ? shared::kRowFloorVec4s : 0);
+  return at;
 }
 
 }  // namespace weft

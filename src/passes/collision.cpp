@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "model/distance_grid.h"
 #include "model/motion.h"
+#include "model/solids.h"
 
 namespace weft {
 namespace {
@@ -42,6 +44,10 @@ double design_speed_m_s(const Model& model) {
     const double own_m_s = sphere.keys.empty() ? glm::length(sphere.velocity_m_s) : fastest_m_s(sphere.keys);
     speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * own_m_s);
   }
+  for (const Solid& solid : solids_of(scene))
+    speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * fastest_m_s(*solid.section, extent_m(solid)));
+  for (const MeshSection& mesh : scene.meshes)
+    speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * fastest_m_s(mesh, kMeshFarthest_m));
   for (const std::uint32_t pin : model.moved_pins)
     speed_m_s = std::max(speed_m_s, 1.0 + 2.0 * fastest_m_s(scene.pins[pin].keys));
   return speed_m_s;

@@ -25,7 +25,7 @@ Constants integrate_constants(const Model& m) {
       air,
       wind,
       gravity,
-      scene.floor.has_value(),
+      scene.floor && scene.floor->is_level(),
       static_cast<std::uint32_t>(std::min<std::size_t>(scene.spheres.size(), kSpheresLooped)),
       pins};
   Constants constants;

@@ -24,12 +24,15 @@ extern const Pass velocity_verlet_compensated;  ///< f32k
 extern const Pass present;                      ///< f64: what is drawn, in float
 extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
-extern const Pass pin_place;     ///< what moving pins hold, put where these are
-extern const Pass xpbd_pins;     ///< XPBD: how far they move it
-extern const Pass strain_limit;  ///< springs of one colour that are too long, pulled back
-extern const Pass watch;         ///< divergence: the fastest particle and the energy of each piece
-extern const Pass judge;         ///< whether the state is sound
-extern const Pass keep_sound;    ///< the last state that was
+extern const Pass aerodynamics;   ///< drag and lift by triangle
+extern const Pass solid_contact;  ///< contact with capsules, boxes and a tilted floor
+extern const Pass mesh_contact;   ///< contact with meshes
+extern const Pass pin_place;      ///< what moving pins hold, put where these are
+extern const Pass xpbd_pins;      ///< XPBD: how far they move it
+extern const Pass strain_limit;   ///< springs of one colour that are too long, pulled back
+extern const Pass watch;          ///< divergence: the fastest particle and the energy of each piece
+extern const Pass judge;          ///< whether the state is sound
+extern const Pass keep_sound;     ///< the last state that was
 
 extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
 extern const Pass cell_count;    ///< particles of each bucket of the grid

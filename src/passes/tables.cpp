@@ -2,6 +2,7 @@
 #include "passes/tables.h"
 
 #include "core/error.h"
+#include "model/distance_grid.h"
 #include "passes/coefficients.h"
 
 namespace weft {
@@ -27,8 +28,7 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
   params.ny = model.grid.ny;
   params.sphere_count = static_cast<shared::uint>(scene.spheres.size());
   params.energy_share_s2_m2 = static_cast<T>(energy_share_s2_m2);
-  params.row_stride = shared::kRowHeadVec4s + shared::kRowSphereVec4s * params.sphere_count +
-                      shared::kRowPinVec4s * static_cast<shared::uint>(model.moved_pins.size());
+  params.row_stride = row_layout(model).stride;
   return params;
 }
 
@@ -36,6 +36,34 @@ std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
   constexpr std::uint32_t kGroup = shared::kCollisionGroup;
   return {(grid.nx + kGroup - 1) / kGroup, grid.ny, 1, 1, 1, 1, 0, 0};
 }
+
+namespace {
+
+template <class T>
+void append_solid(const SolidRow<T>& solid, std::vector<glm::vec<4, T>>& table) {
+  table.emplace_back(solid.center, solid.reach);
+  table.emplace_back(solid.start, solid.friction);
+  table.emplace_back(solid.velocity, solid.deep);
+  table.emplace_back(solid.spin, T(0));
+  for (int k = 0; k < 3; ++k) table.emplace_back(solid.axes[k], solid.half[k]);
+  for (int k = 0; k < 3; ++k) table.emplace_back(solid.start_axes[k], T(0));
+}
+
+/// The grid's corner, cell and samples.
+template <class T>
+void append_grid(const DistanceGrid& grid, std::size_t first, std::vector<glm::vec<4, T>>& table) {
+  table.emplace_back(glm::vec<3, T>(grid.low_m), static_cast<T>(grid.cell_m));
+  table.emplace_back(glm::vec<3, T>(grid.samples), static_cast<T>(first));
+}
+
+template <class T>
+void append_air(const AirRow<T>& air, std::vector<glm::vec<4, T>>& table) {
+  table.emplace_back(air.wind, air.slice_share);
+  table.emplace_back(air.origin, air.cells_1_m);
+  table.emplace_back(air.slice, air.noise_m_s, air.drag, air.lift);
+}
+
+}  // namespace
 
 template <class T>
 void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
@@ -53,6 +81,18 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
     for (const PinRow<T>& pin : row.pins) {
       table.emplace_back(pin.offset, T(0));
       table.emplace_back(pin.velocity, T(0));
+    }
+    for (const SolidRow<T>& solid : row.solids) append_solid(solid, table);
+    std::size_t first = 0;
+    for (std::size_t mesh = 0; mesh < row.meshes.size(); ++mesh) {
+      append_solid(row.meshes[mesh], table);
+      append_grid(*model.meshes[mesh], first, table);
+      first += model.meshes[mesh]->distance.size();
+    }
+    if (model.scene.aerodynamics) append_air(air_row<T>(model, kick_drift), table);
+    if (has_tilted_floor(model)) {
+      const TiltRow<double> tilt = tilt_row_exact(model);
+      table.emplace_back(glm::vec<3, T>(tilt.normal), static_cast<T>(tilt.level));
     }
   }
 }

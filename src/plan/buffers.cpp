@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 
+#include "passes/coefficients.h"
 #include "passes/collision.h"
+#include "passes/mesh_grids.h"
 #include "passes/passes.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
@@ -14,11 +16,7 @@ namespace weft {
 
 std::uint32_t substep_row_capacity(std::uint32_t rows) { return std::bit_ceil(rows); }
 
-std::uint32_t substep_row_stride(const Model& model) {
-  return shared::kRowHeadVec4s +
-         shared::kRowSphereVec4s * static_cast<std::uint32_t>(model.scene.spheres.size()) +
-         shared::kRowPinVec4s * static_cast<std::uint32_t>(model.moved_pins.size());
-}
+std::uint32_t substep_row_stride(const Model& model) { return row_layout(model).stride; }
 
 std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows) {
   switch (id) {
@@ -29,6 +27,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::substeps: return std::uint64_t{substep_row_capacity(rows)} * substep_row_stride(model);
     case BufferId::collision: return 1;
     case BufferId::moved_pins: return model.moved_particles.size();
+    case BufferId::distance_grids: return distance_word_count(model);
     case BufferId::collision_state: return shared::kCollisionStateWords;
     case BufferId::cells: return collision_layout(model).buckets + std::uint64_t{1};
     case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
@@ -106,6 +105,14 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kSelfContact = {params,    position,   position_next, velocity,   velocity_next,
                                               collision, pair_count, pair_places,   touch_count};
   static constexpr std::array kPinPlace = {params, substeps, position, velocity, moved_pins};
+  static constexpr std::array kSolidContact = {params, substeps, position, position_next, velocity};
+  static constexpr std::array kAerodynamics = {params,        substeps, position,
+                                               position_next, velocity, velocity_next};
+  if (&pass == &weft::aerodynamics) return kAerodynamics;
+  if (&pass == &solid_contact) return kSolidContact;
+  static constexpr std::array kMeshContact = {params,        substeps, position,
+                                              position_next, velocity, distance_grids};
+  if (&pass == &mesh_contact) return kMeshContact;
   static constexpr std::array kXpbdPins = {params, substeps, position_next, moved_pins};
   if (&pass == &pin_place) return kPinPlace;
   if (&pass == &xpbd_pins) return kXpbdPins;

@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kFrameSlots = 2;
 /// @param rows  of a frame (Plan::row_count)
 std::uint32_t substep_row_capacity(std::uint32_t rows);
 
-/// vec4s from one row of the substep table to the next: its head, every sphere and every pin that moves
+/// vec4s from one row of the substep table to the next: its head, every collider and every pin that moves
 /// (shared/params.h).
 std::uint32_t substep_row_stride(const Model& model);
 

@@ -51,6 +51,7 @@ std::vector<LeftOut> left_out_effects(const Model& model) {
   const Constants effects = integrate_constants(model);
   std::vector<LeftOut> left_out;
   for (const Effect& effect : kEffects) {
+    if (effect.constant == "floor" && has_tilted_floor(model)) continue;  // solid_contact holds it
     for (const Constant& constant : effects)
       if (constant.name == effect.constant && constant.value == 0)
         left_out.push_back({effect.name, effect.reason(model.scene)});
@@ -129,6 +130,12 @@ const Need kNeeds[] = {
     {has_strain_limit, &strain_limit,
      [](const Model& m) { return fmt::format("material.strain_limit is {}", m.scene.material.strain_limit); },
      "set it to 0"},
+    {[](const Model& m) { return !solid_contact.domain(m).empty(); }, &solid_contact,
+     [](const Model&) { return std::string("[[capsules]], [[boxes]] or a tilted [floor]"); }, "remove them"},
+    {[](const Model& m) { return !m.meshes.empty(); }, &mesh_contact,
+     [](const Model&) { return std::string("[[meshes]]"); }, "remove them"},
+    {[](const Model& m) { return m.scene.aerodynamics.has_value(); }, &aerodynamics,
+     [](const Model&) { return std::string("[aerodynamics]"); }, "use [air]"},
 };
 
 bool lists(const Solver& solver, const Pass* pass) {

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "render/solid_mesh.h"
+
 namespace weft {
 namespace {
 
@@ -108,7 +110,13 @@ Bounds scene_bounds(const Model& model) {
       const glm::dvec3 center = sphere_center_at(sphere, time_s);
       include(bounds, center - sphere.radius_m, center + sphere.radius_m);
     }
-  if (scene.floor) bounds.low.y = std::max(bounds.low.y, scene.floor->height_m);
+  for (std::size_t body = 0; body < body_count(model); ++body)
+    for (const double time_s : {0.0, 1.0}) {
+      const glm::dvec3 center(body_frame(model, body, time_s)[3]);
+      const double reach_m = body_extent_m(model, body);
+      include(bounds, center - reach_m, center + reach_m);
+    }
+  if (scene.floor && scene.floor->is_level()) bounds.low.y = std::max(bounds.low.y, scene.floor->height_m);
   bounds.high = glm::max(bounds.high, bounds.low + 0.05 * size);
   return bounds;
 }

@@ -1,4 +1,6 @@
 // The descriptor layout of the draw shaders and its sets.
+#include <glm/mat4x4.hpp>
+
 #include "render/draw_pipeline.h"
 
 namespace weft {
@@ -57,6 +59,9 @@ void DrawLayout::create_layout() {
   VkPipelineLayoutCreateInfo layout_info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
   layout_info.setLayoutCount = 1;
   layout_info.pSetLayouts = &set_layout_;
+  const VkPushConstantRange frame{VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(glm::mat4)};
+  layout_info.pushConstantRangeCount = 1;
+  layout_info.pPushConstantRanges = &frame;
   gpu::check(vkCreatePipelineLayout(device_.handle(), &layout_info, nullptr, &layout_),
              "create the draw pipeline layout");
   device_.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(layout_), "draw layout");

@@ -14,7 +14,8 @@ namespace weft {
 /// Descriptor sets in flight: one for each picture that may be on its way at the same time.
 inline constexpr std::uint32_t kDrawSlots = 3;
 
-/// Set 0: 0 = view block, 1 = shadow map with comparison, 2 = its depths, 3 = positions (heat map only).
+/// Push constants: a body's frame, of the vertex stage. Set 0: 0 = view block, 1 = shadow map with
+/// comparison, 2 = its depths, 3 = positions (heat map only).
 class DrawLayout {
  public:
   DrawLayout(gpu::Device& device, const gpu::Buffer& view, const gpu::Image& shadow_map);

@@ -130,6 +130,7 @@ DrawCounts Renderer::draw(VkCommandBuffer commands, const DrawTarget& target, co
   WEFT_ASSERT(slot < kDrawSlots);
   counts_ = {};
   slot_ = slot;
+  time_s_ = time_s;
   if (look.stride != listed_stride_) {
     device_.wait_idle();
     drop_cloth_lists();
@@ -181,6 +182,7 @@ void Renderer::draw_shadows(VkCommandBuffer commands, const DrawBuffers& cloth, 
   else
     draw_cloth(commands, kShadowTriangles, shadow_list(look), cloth);
   if (ball_count_ > 0) draw_balls(commands, kShadowBalls);
+  draw_solids(commands, kShadowSolids);
   vkCmdEndRendering(commands);
 
   VkImageMemoryBarrier2 read = image_barrier(shadow_map_);
@@ -225,6 +227,7 @@ void Renderer::draw_scene(VkCommandBuffer commands, const DrawTarget& target, co
   draw_cloth(commands, look.heat ? heat : plain, list, cloth);
   count_cloth(list);
   if (ball_count_ > 0) draw_balls(commands, kBalls);
+  draw_solids(commands, kSolids);
   if (model_->scene.floor) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(kFloor).handle());
     vkCmdDraw(commands, 4, 1, 0, 0);
@@ -254,6 +257,21 @@ void Renderer::draw_balls(VkCommandBuffer commands, Kind kind) {
   vkCmdBindIndexBuffer(commands, order.buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
   vkCmdDrawIndexed(commands, order.count, ball_count_, 0, 0, 0);
   ++counts_.draws;
+}
+
+void Renderer::draw_solids(VkCommandBuffer commands, Kind kind) {
+  if (solids_.bodies.empty()) return;
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(kind).handle());
+  const VkBuffer buffers[] = {solids_.position.handle(), solids_.normal.handle()};
+  const VkDeviceSize offsets[] = {0, 0};
+  vkCmdBindVertexBuffers(commands, 0, describe(kind).attributes, buffers, offsets);
+  vkCmdBindIndexBuffer(commands, solids_.indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+  for (std::size_t body = 0; body < solids_.bodies.size(); ++body) {
+    const glm::mat4 frame = body_frame(*model_, body, time_s_);
+    vkCmdPushConstants(commands, layout_->handle(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof frame, &frame);
+    vkCmdDrawIndexed(commands, solids_.bodies[body].index_count, 1, solids_.bodies[body].first_index, 0, 0);
+    ++counts_.draws;
+  }
 }
 
 void Renderer::count_cloth(List list) {

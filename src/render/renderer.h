@@ -13,6 +13,7 @@
 #include "gpu/device.h"
 #include "render/camera.h"
 #include "render/draw_pipeline.h"
+#include "render/solid_mesh.h"
 #include "render/view.h"
 #include "sim/gpu_simulation.h"
 
@@ -84,6 +85,7 @@ class Renderer {
     kShadowTriangles,
     kShadowLines,
     kShadowBalls,
+    kShadowSolids,
     kSmooth,
     kFlat,
     kSmoothHeat,
@@ -91,6 +93,7 @@ class Renderer {
     kWire,
     kWireHeat,
     kBalls,
+    kSolids,
     kFloor,
     kSky,
     kKindCount
@@ -107,6 +110,11 @@ class Renderer {
     gpu::Buffer buffer;
     std::uint32_t count = 0;
   };
+  /// Capsules, boxes and meshes: one body's triangles behind the other's.
+  struct Solids {
+    gpu::Buffer position, normal, indices;
+    std::vector<BodyRange> bodies;
+  };
 
   void drop_cloth_lists();
   static std::string_view kind_name(Kind kind);
@@ -121,6 +129,8 @@ class Renderer {
                   const Look& look);
   void draw_cloth(VkCommandBuffer commands, Kind kind, List list, const DrawBuffers& cloth);
   void draw_balls(VkCommandBuffer commands, Kind kind);
+  void draw_solids(VkCommandBuffer commands, Kind kind);
+  void make_solids();
   void begin_pass(VkCommandBuffer commands, const VkRenderingInfo& info);
   void count_cloth(List list);
 
@@ -136,6 +146,8 @@ class Renderer {
   std::optional<DrawLayout> layout_;
   std::array<DrawPipeline, kKindCount> pipelines_;
   std::array<Indices, kListCount> lists_;
+  Solids solids_;
+  double time_s_ = 0.0;  ///< of the picture being recorded
   std::uint32_t ball_count_ = 0;
   std::uint32_t slot_ = 0;
   DrawCounts counts_;

@@ -13,6 +13,7 @@ void Renderer::set_model(const Model& model) {
   model_ = &model;
   stage_.bounds = scene_bounds(model);
   ball_count_ = ball_count(model);
+  make_solids();
   if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny) return;
   drop_cloth_lists();
   listed_ = model.grid;
@@ -24,9 +25,13 @@ void Renderer::drop_cloth_lists() {
 }
 
 std::string_view Renderer::kind_name(Kind kind) {
-  constexpr std::array<std::string_view, kKindCount> kNames{
-      "shadow of cloth", "shadow of lines", "shadow of balls", "cloth", "cloth flat", "cloth heat",
-      "cloth flat heat", "wireframe",       "wireframe heat",  "balls", "floor",      "sky"};
+  constexpr std::array<std::string_view, kKindCount> kNames{"shadow of cloth", "shadow of lines",
+                                                            "shadow of balls", "shadow of solids",
+                                                            "cloth",           "cloth flat",
+                                                            "cloth heat",      "cloth flat heat",
+                                                            "wireframe",       "wireframe heat",
+                                                            "balls",           "solids",
+                                                            "floor",           "sky"};
   return kNames[kind];
 }
 
@@ -42,9 +47,12 @@ DrawPipelineOptions Renderer::describe(Kind kind) const {
     case kShadowTriangles:
     case kShadowLines:
     case kShadowBalls:
-      options.vertex = kind == kShadowBalls ? "draw/shadow_ball.vert" : "draw/shadow_cloth.vert";
+    case kShadowSolids:
+      options.vertex = kind == kShadowBalls    ? "draw/shadow_ball.vert"
+                       : kind == kShadowSolids ? "draw/shadow_solid.vert"
+                                               : "draw/shadow_cloth.vert";
       options.attributes = kind == kShadowBalls ? 0 : 1;
-      options.cull_back = kind == kShadowBalls;
+      options.cull_back = kind == kShadowBalls || kind == kShadowSolids;
       options.shadow = true;
       options.color_format = VK_FORMAT_UNDEFINED;
       options.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -53,6 +61,12 @@ DrawPipelineOptions Renderer::describe(Kind kind) const {
     case kBalls:
       options.vertex = "draw/ball.vert";
       options.fragment = "draw/ball.frag";
+      options.cull_back = true;
+      return options;
+    case kSolids:
+      options.vertex = "draw/solid.vert";
+      options.fragment = "draw/ball.frag";
+      options.attributes = 2;
       options.cull_back = true;
       return options;
     case kFloor:
@@ -74,6 +88,23 @@ DrawPipelineOptions Renderer::describe(Kind kind) const {
       options.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
       return options;
   }
+}
+
+void Renderer::make_solids() {
+  solids_ = {};
+  const SolidTriangles made = solid_triangles(*model_);
+  solids_.bodies = made.bodies;
+  if (made.bodies.empty()) return;
+  const auto filled = [&](const char* name, auto span, VkBufferUsageFlags usage) {
+    const auto bytes = std::as_bytes(span);
+    gpu::Buffer buffer(device_, name, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       gpu::Memory::device);
+    buffer.write(bytes);
+    return buffer;
+  };
+  solids_.position = filled("solid positions", std::span(made.position), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  solids_.normal = filled("solid normals", std::span(made.normal), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  solids_.indices = filled("solid triangles", std::span(made.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 const DrawPipeline& Renderer::pipeline(Kind kind) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "model/motion.h"
+#include "model/solids.h"
 
 namespace weft {
 namespace {
@@ -97,6 +98,8 @@ shared::View make_view(const Model& model, const Stage& stage, const Camera& cam
   view.focus_m = stage.bounds.middle();
   view.floor_m =
       model.scene.floor ? static_cast<float>(model.scene.floor->height_m - kFloorGap * size) : 0.0f;
+  view.floor_normal =
+      model.scene.floor ? glm::vec3(floor_plane(*model.scene.floor).normal) : glm::vec3(0.0f, 1.0f, 0.0f);
   view.checker_m = static_cast<float>(checker_m(size));
   view.fade_m = static_cast<float>(9.0 * stage.bounds.radius_m());
   view.heat_full = static_cast<float>(heat_full);

@@ -70,12 +70,19 @@ fs::path assets_dir() {
 
 std::vector<AssetInfo> list_scenes() { return list_assets("scenes"); }
 
+std::vector<AssetInfo> numbered_scenes() {
+  std::vector<AssetInfo> scenes = list_scenes();
+  std::erase_if(scenes, [](const AssetInfo& scene) { return number_of(scene.name).empty(); });
+  return scenes;
+}
+
 std::vector<AssetInfo> list_materials() { return list_assets("materials"); }
 
 fs::path find_scene(const std::string& wanted) {
   const std::vector<AssetInfo> scenes = list_scenes();
   for (const AssetInfo& scene : scenes)
-    if (wanted == scene.name || wanted == without_number(scene.name) || wanted == number_of(scene.name))
+    if (!wanted.empty() &&
+        (wanted == scene.name || wanted == without_number(scene.name) || wanted == number_of(scene.name)))
       return scene.file;
   std::error_code ignored;
   if (!wanted.empty() && fs::exists(wanted, ignored)) return wanted;
@@ -85,7 +92,7 @@ fs::path find_scene(const std::string& wanted) {
   for (const AssetInfo& scene : scenes) names.push_back(without_number(scene.name));
   const std::vector<std::string_view> known(names.begin(), names.end());
   throw error(Exit::usage, "there is no scene or file {}; a scene is a number 1 to {}, a path, or a name: {}",
-              in_quotes(wanted, 200), scenes.size(), suggestion(wanted, known));
+              in_quotes(wanted, 200), numbered_scenes().size(), suggestion(wanted, known));
 }
 
 }  // namespace weft

@@ -1,4 +1,6 @@
 // What single keys cannot tell: required keys, contradictions, and starts that look like mistakes.
+#include <glm/geometric.hpp>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/grid_rule.h"
@@ -56,10 +58,16 @@ void check_pins(const Draft& draft) {
 void check_wind(const Draft& draft) {
   const auto& wind = draft.scene.wind;
   if (!wind) return;
-  if (!draft.scene.air)
+  if (!draft.scene.air && !draft.scene.aerodynamics)
     throw error(Exit::usage,
-                "{}: [wind] needs [air]; it must have air to act through (add [air] with drag = 0.1)",
+                "{}: [wind] needs [air]; it must have air to act through (add [air] with drag = 0.1, or "
+                "[aerodynamics])",
                 draft.place_of({"wind"}));
+  if (wind->noise_m_s > 0.0 && !draft.scene.aerodynamics)
+    throw error(Exit::usage,
+                "{}: wind.noise is {} without [aerodynamics]; it must have that to act through (add the line "
+                "[aerodynamics], or remove noise)",
+                draft.place_of({"wind"}, "noise"), short_number(wind->noise_m_s));
   constexpr double kShortestPeriod_s = 1e-3;
   if (wind->gust > 0.0 && wind->period_s < kShortestPeriod_s)
     throw error(Exit::usage,
@@ -69,17 +77,53 @@ void check_wind(const Draft& draft) {
 }
 
 /// What a motion's keys say already must not be said again beside them.
-void check_motion(const Draft& draft) {
-  for (std::size_t k = 0; k < draft.scene.spheres.size(); ++k) {
-    const Target target{"spheres", k};
-    if (draft.scene.spheres[k].keys.empty()) continue;
+template <class List>
+void check_motion_of(const Draft& draft, std::string_view section, std::string_view one, const List& items) {
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const Target target{section, k};
+    if (items[k].keys.empty()) continue;
     for (const char* key : {"center", "velocity"})
       if (draft.is_given(target, key))
         throw error(Exit::usage,
-                    "{}: {} stands beside spheres.{}.keys; it must be one or the other, since the keys say "
-                    "where the sphere is and how fast (remove {})",
-                    draft.place_of(target, key), full_key(target, key), k, key);
+                    "{}: {} stands beside {}.{}.keys; it must be one or the other, since the keys say "
+                    "where the {} is and how fast (remove {})",
+                    draft.place_of(target, key), full_key(target, key), section, k, one, key);
   }
+}
+
+void check_motion(const Draft& draft) {
+  check_motion_of(draft, "spheres", "sphere", draft.scene.spheres);
+  check_motion_of(draft, "capsules", "capsule", draft.scene.capsules);
+  check_motion_of(draft, "boxes", "box", draft.scene.boxes);
+  check_motion_of(draft, "meshes", "mesh", draft.scene.meshes);
+}
+
+/// A wall has no height above the origin, and a ceiling is no floor.
+void check_floor(const Draft& draft) {
+  if (!draft.scene.floor) return;
+  const glm::dvec3& n = draft.scene.floor->normal;
+  constexpr double kSteepest = 0.087;  // cos 85°
+  if (n.y >= kSteepest * glm::length(n) && n.y > 0.0) return;
+  throw error(Exit::usage,
+              "{}: floor.normal is {}; it must point upwards and lean at most 85 degrees ([0.2, 1, 0]; "
+              "[[boxes]] make walls)",
+              draft.place_of({"floor"}, "normal"), value_text(ParameterValue(n)));
+}
+
+void check_solids(const Draft& draft) {
+  const std::size_t capsules = draft.scene.capsules.size(), count = capsules + draft.scene.boxes.size();
+  if (count <= shared::kMaxSolids) return;
+  const Target first = capsules > shared::kMaxSolids ? Target{"capsules", shared::kMaxSolids}
+                                                     : Target{"boxes", shared::kMaxSolids - capsules};
+  throw error(Exit::usage,
+              "{}: there are {} capsules and boxes together; it must be at most {} (remove some)",
+              draft.place_of(first), count, shared::kMaxSolids);
+}
+
+void check_meshes(const Draft& draft) {
+  if (draft.scene.meshes.size() <= shared::kMaxMeshes) return;
+  throw error(Exit::usage, "{}: there are {} meshes; it must be at most {} (join them into one file)",
+              draft.place_of({"meshes", shared::kMaxMeshes}), draft.scene.meshes.size(), shared::kMaxMeshes);
 }
 
 void check_moved_pins(const Draft& draft) {
@@ -111,13 +155,16 @@ void check_scene(const Draft& draft) {
   check_motion(draft);
   check_moved_pins(draft);
   check_spheres(draft);
+  check_solids(draft);
+  check_meshes(draft);
+  check_floor(draft);
 }
 
 std::vector<std::string> scene_warnings(const Draft& draft) {
   const Scene& scene = draft.scene;
   const double half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
   std::vector<std::string> warnings;
-  if (scene.air && scene.wind && scene.air->drag_kg_m2_s == 0.0)
+  if (scene.air && scene.wind && scene.air->drag_kg_m2_s == 0.0 && !scene.aerodynamics)
     warnings.push_back(
         fmt::format("{}: air.drag is 0, so the wind moves nothing", draft.place_of({"air"}, "drag")));
   if (!scene.floor && scene.spheres.empty()) return warnings;

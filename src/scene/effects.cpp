@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/parameters.h"
+#include "scene/reader.h"
 
 namespace weft {
 namespace {
@@ -46,12 +47,43 @@ constexpr std::array kEffectList{
                [](Scene& s) {
                  s.wind = WindSection{{0.0, 0.0, 1.0}};
                }},
+    Effect{
+        .name = "aerodynamics", .needs = "", .add = [](Scene& s) { s.aerodynamics = AerodynamicsSection{}; }},
     Effect{.name = "floor", .needs = "", .add = [](Scene& s) { s.floor = FloorSection{far_below_m(s)}; }},
     Effect{.name = "spheres",
            .needs = "",
            .add =
                [](Scene& s) {
                  s.spheres = {{.center_m = {0.0, far_below_m(s), 0.0}, .radius_m = 0.25}};
+               }},
+    Effect{.name = "capsules",
+           .needs = "",
+           .add =
+               [](Scene& s) {
+                 CapsuleSection capsule;
+                 capsule.a_m = {-0.5, far_below_m(s), 0.0};
+                 capsule.b_m = {0.5, far_below_m(s), 0.0};
+                 capsule.radius_m = 0.1;
+                 s.capsules = {capsule};
+               }},
+    Effect{.name = "boxes",
+           .needs = "",
+           .add =
+               [](Scene& s) {
+                 BoxSection box;
+                 box.center_m = {0.0, far_below_m(s), 0.0};
+                 box.size_m = glm::dvec3(0.5);
+                 s.boxes = {box};
+               }},
+    Effect{.name = "meshes",
+           .needs = "",
+           .add =
+               [](Scene& s) {
+                 MeshSection mesh;
+                 mesh.file = (assets_dir() / "meshes" / "ring.obj").string();
+                 mesh.center_m = {0.0, far_below_m(s), 0.0};
+                 mesh.resolution = 16;
+                 s.meshes = {mesh};
                }},
     Effect{.name = "self_collision",
            .needs = "",

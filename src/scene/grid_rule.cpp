@@ -57,8 +57,11 @@ StartDepths start_depths(const Scene& scene, double half_thickness_m) {
       const glm::dvec3 local =
           is_vertical ? glm::dvec3(u, half_height_m - s, off) : glm::dvec3(u, off, s - half_height_m);
       const glm::dvec3 place = cloth.center_m + local;
-      if (scene.floor)
-        depths.floor_m = std::max(depths.floor_m, scene.floor->height_m + half_thickness_m - place.y);
+      if (scene.floor) {
+        const glm::dvec3 above = place - glm::dvec3(0.0, scene.floor->height_m, 0.0);
+        const double height_m = glm::dot(above, glm::normalize(scene.floor->normal));
+        depths.floor_m = std::max(depths.floor_m, half_thickness_m - height_m);
+      }
       for (std::size_t k = 0; k < scene.spheres.size(); ++k) {
         const SphereSection& sphere = scene.spheres[k];
         const double inside_m = sphere.radius_m + half_thickness_m - glm::distance(place, sphere.center_m);

@@ -13,6 +13,7 @@ inline constexpr double kFarthest_m = 1e4;
 /// In the order of docs/scene-format.md, one part after the other.
 std::span<const Parameter> cloth_rows();
 std::span<const Parameter> outside_rows();
+std::span<const Parameter> collider_rows();
 std::span<const Parameter> run_rows();
 
 }  // namespace weft::parameter_access

@@ -9,7 +9,7 @@ std::span<const Parameter> parameters() {
   using namespace parameter_access;
   static const std::vector<Parameter> table = [] {
     std::vector<Parameter> all;
-    for (const auto rows : {cloth_rows(), outside_rows(), run_rows()})
+    for (const auto rows : {cloth_rows(), outside_rows(), collider_rows(), run_rows()})
       all.insert(all.end(), rows.begin(), rows.end());
     return all;
   }();

@@ -11,14 +11,19 @@
 namespace weft {
 namespace {
 
-constexpr std::string_view kSections[] = {"cloth", "material", "pins",           "gravity", "air",   "wind",
-                                          "floor", "spheres",  "self_collision", "solver",  "expect"};
+constexpr std::string_view kSections[] = {"cloth", "material",     "pins",           "gravity", "air",
+                                          "wind",  "aerodynamics", "floor",          "spheres", "capsules",
+                                          "boxes", "meshes",       "self_collision", "solver",  "expect"};
 
 /// Applies `act` to the optional or list that stands for a section; nothing for sections that always stand.
 template <class AnyScene, class Act>
 void with_section(AnyScene& scene, std::string_view section, Act&& act) {
   if (section == "pins") return act(scene.pins);
   if (section == "spheres") return act(scene.spheres);
+  if (section == "capsules") return act(scene.capsules);
+  if (section == "boxes") return act(scene.boxes);
+  if (section == "meshes") return act(scene.meshes);
+  if (section == "aerodynamics") return act(scene.aerodynamics);
   if (section == "gravity") return act(scene.gravity);
   if (section == "air") return act(scene.air);
   if (section == "wind") return act(scene.wind);
@@ -117,7 +122,20 @@ const Parameter* find_parameter(std::string_view section, std::string_view key) 
 
 std::span<const std::string_view> section_names() { return kSections; }
 
-bool is_list_section(std::string_view section) { return section == "pins" || section == "spheres"; }
+bool is_list_section(std::string_view section) {
+  bool is_list = false;
+  const Scene scene;
+  with_section(scene, section, [&](const auto& part) {
+    is_list = requires { part[0]; };
+  });
+  return is_list;
+}
+
+void remove_item(Scene& scene, std::string_view section, std::size_t item) {
+  with_section(scene, section, [&](auto& part) {
+    if constexpr (requires { part[0]; }) part.erase(part.begin() + static_cast<std::ptrdiff_t>(item));
+  });
+}
 
 std::size_t item_count(const Scene& scene, std::string_view section) {
   std::size_t count = 1;
@@ -159,7 +177,8 @@ std::string rule_text(const Parameter& p) {
   if (p.kind == word)
     return p.words.empty() ? "a word in quotes, printable and on one line" : words_text(p.words);
   if (p.kind == keys)
-    return fmt::format("a list of keys {{ time = s, {} = [x, y, z] }}", motion_place_name(p));
+    return fmt::format("a list of keys {{ time = s, {} = [x, y, z]{} }}", motion_place_name(p),
+                       motion_turns(p) ? ", rotation = [x, y, z]" : "");
   std::string text = range_text(p);
   if (p.kind == integer) text += ", a whole number";
   if (p.kind == vec2) text = "two numbers, each " + text;

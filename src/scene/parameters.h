@@ -49,7 +49,7 @@ const Parameter* find_parameter(std::string_view section, std::string_view key);
 /// Every section in file order: "cloth", "material", …, "expect".
 std::span<const std::string_view> section_names();
 
-/// Whether a section is a list of items: "pins" and "spheres".
+/// Whether a section is a list of items: "pins", "spheres".
 bool is_list_section(std::string_view section);
 
 /// Whether an optional section stands in the scene (a list: has items); cloth, material and solver always do.
@@ -60,6 +60,9 @@ void add_section(Scene&, std::string_view section);
 
 /// Removes an optional section, or every item of a list; its effect is then not simulated.
 void remove_section(Scene&, std::string_view section);
+
+/// Removes one item of a list section.
+void remove_item(Scene&, std::string_view section, std::size_t item);
 
 /// Items of a list section; 1 or 0 for any other.
 std::size_t item_count(const Scene&, std::string_view section);
@@ -76,8 +79,17 @@ std::string rule_text(const Parameter&);
 /// How a key of the parameter's motion names its place: "center".
 std::string_view motion_place_name(const Parameter&);
 
+/// Whether the keys of the parameter's motion may have a rotation.
+bool motion_turns(const Parameter&);
+
 /// Between two keys nothing moves faster, so that a slip of the unit is caught [m/s].
 inline constexpr double kMotionFastest_m_s = 1000.0;
+
+/// Between two keys nothing turns faster about an axis [°/s]: ten times in a second.
+inline constexpr double kTurnFastest_deg_s = 3600.0;
+
+/// How far anything is turned about an axis, at most [°]: a hundred times.
+inline constexpr double kTurnFarthest_deg = 36000.0;
 
 /// Checks kind, range and finiteness. Empty when the value is allowed, else the rule it breaks with its cure:
 /// "it must be 2 to 4096 (40 draws well)". Sliders use it too.

@@ -38,7 +38,8 @@ struct AssetInfo {
   std::string name, title;
   std::filesystem::path file;
 };
-std::vector<AssetInfo> list_scenes();     ///< scene 1 first
-std::vector<AssetInfo> list_materials();  ///< by name
+std::vector<AssetInfo> list_scenes();      ///< scene 1 first, those without a number after the last
+std::vector<AssetInfo> numbered_scenes();  ///< those that the keys 1 to 6 open
+std::vector<AssetInfo> list_materials();   ///< by name
 
 }  // namespace weft

@@ -16,7 +16,8 @@ enum class Orientation { vertical, horizontal };
 /// the last it stands still.
 struct MotionKey {
   double time_s = 0.0;
-  glm::dvec3 place_m{0.0};  ///< a sphere's centre; a pin's offset from its place at the cloth's start
+  glm::dvec3 place_m{0.0};       ///< a collider's centre; a pin's offset from its place at the cloth's start
+  glm::dvec3 rotation_deg{0.0};  ///< of capsules, boxes and meshes: about x, then y, then z
   bool operator==(const MotionKey&) const = default;
 };
 using MotionKeys = std::vector<MotionKey>;
@@ -71,12 +72,26 @@ struct AirSection {
 struct WindSection {
   glm::dvec3 velocity_m_s{0.0};  ///< required in its section
   double gust = 0.0;
-  double period_s = 0.0;  ///< required when gust > 0
+  double period_s = 0.0;        ///< required when gust > 0
+  double noise_m_s = 0.0;       ///< what each component differs by from place to place, at most
+  double noise_scale_m = 1.0;   ///< from one eddy to the next
+  double noise_period_s = 1.0;  ///< in which the eddies become others
+  std::uint32_t seed = 1;       ///< of the noise
+};
+
+/// Drag and lift by triangle, quadratic in the speed.
+struct AerodynamicsSection {
+  double density_kg_m3 = 1.2;  ///< of the air
+  double drag = 1.28;          ///< coefficient of a flat plate across the flow
+  double lift = 0.5;           ///< coefficient
 };
 
 struct FloorSection {
-  double height_m = 0.0;
+  double height_m = 0.0;  ///< of the point below the origin, where x = z = 0
   double friction = 0.0;
+  glm::dvec3 normal{0.0, 1.0, 0.0};  ///< out of the floor; any length
+
+  bool is_level() const { return normal.x == 0.0 && normal.z == 0.0; }
 };
 
 struct SphereSection {
@@ -85,6 +100,32 @@ struct SphereSection {
   glm::dvec3 velocity_m_s{0.0};
   double friction = 0.0;
   MotionKeys keys = {};  ///< of its centre; with keys, center_m is the first and velocity_m_s is not used
+};
+
+/// What capsules, boxes and meshes have in common.
+struct SolidSection {
+  glm::dvec3 velocity_m_s{0.0};
+  double friction = 0.0;
+  MotionKeys keys = {};  ///< of its centre and of what it is turned by on top of its own rotation
+};
+
+struct CapsuleSection : SolidSection {
+  glm::dvec3 a_m{0.0}, b_m{0.0};  ///< ends of its axis; required
+  double radius_m = 0.0;          ///< required
+};
+
+struct BoxSection : SolidSection {
+  glm::dvec3 center_m{0.0};      ///< required, or keys
+  glm::dvec3 size_m{0.0};        ///< full edges along its own axes; required
+  glm::dvec3 rotation_deg{0.0};  ///< about x, then y, then z
+};
+
+struct MeshSection : SolidSection {
+  std::string file;               ///< OBJ, beside the scene's file; required
+  glm::dvec3 center_m{0.0};       ///< where the file's origin is; required, or keys
+  glm::dvec3 rotation_deg{0.0};   ///< about x, then y, then z
+  double scale = 1.0;             ///< metres of one unit of the file
+  std::uint32_t resolution = 64;  ///< cells of the distance grid along the longest side
 };
 
 struct SelfCollisionSection {
@@ -112,8 +153,12 @@ struct Scene {
   std::optional<GravitySection> gravity;
   std::optional<AirSection> air;
   std::optional<WindSection> wind;
+  std::optional<AerodynamicsSection> aerodynamics;
   std::optional<FloorSection> floor;
   std::vector<SphereSection> spheres;
+  std::vector<CapsuleSection> capsules;
+  std::vector<BoxSection> boxes;
+  std::vector<MeshSection> meshes;
   std::optional<SelfCollisionSection> self_collision;
   SolverSection solver;
   std::optional<ExpectSection> expect;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "passes/collision.h"
+#include "passes/mesh_grids.h"
 #include "passes/moved_pins.h"
 #include "passes/strain_limit.h"
 #include "passes/tables.h"
@@ -44,6 +45,10 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
       const auto collision = make_collision<T>(model);
       return bytes_of(std::span(&collision, 1));
     }
+    if (id == BufferId::distance_grids) {
+      const auto words = make_distance_words(model);
+      return bytes_of(std::span<const std::uint32_t>(words));
+    }
     if (id == BufferId::moved_pins) {
       const auto pins = make_moved_pins<T>(model);
       return bytes_of(std::span<const shared::MovedPinOf<T>>(pins));
@@ -70,7 +75,7 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
   return in_precision(plan, [&]<class T>(T) {
     std::vector<glm::vec<4, T>> table;
     fill_substep_rows(model, rows, table);
-    perturbation.apply(std::span(table), substep_row_stride(model), model.scene.spheres.size());
+    perturbation.apply(model, std::span(table));
     return bytes_of(std::span<const glm::vec<4, T>>(table));
   });
 }
@@ -78,7 +83,7 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
 void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
                   const Perturbation& perturbation) {
   for (const BufferId id : {BufferId::params, BufferId::constraints, BufferId::collision,
-                            BufferId::moved_pins, BufferId::strain_limits}) {
+                            BufferId::moved_pins, BufferId::strain_limits, BufferId::distance_grids}) {
     if (!buffers.has(id)) continue;
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);

@@ -37,7 +37,8 @@ void fill_poison(BufferId id, std::span<std::byte> bytes) {
 /// Whether the model alone says what is in the buffer.
 bool is_block(BufferId id) {
   using enum BufferId;
-  return id == params || id == constraints || id == collision || id == moved_pins || id == strain_limits;
+  return id == params || id == constraints || id == collision || id == moved_pins || id == strain_limits ||
+         id == distance_grids;
 }
 
 /// Of a device's buffer of type E.

@@ -2,6 +2,7 @@
 #include "sim/perturb.h"
 
 #include "core/error.h"
+#include "passes/coefficients.h"
 
 namespace weft {
 namespace {
@@ -69,14 +70,29 @@ void Perturbation::apply(ConstraintRows<T>& constraints) const {
 }
 
 template <class T>
-void Perturbation::apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride, std::size_t spheres) const {
-  for (std::size_t row = 0; row + stride <= rows.size(); row += stride) {
+void Perturbation::apply(const Model& model, std::span<glm::vec<4, T>> rows) const {
+  const RowLayout at = row_layout(model);
+  const std::size_t spheres = model.scene.spheres.size();
+  const T length_m = static_cast<T>(0.01 * model.grid.spacing_m);
+  for (std::size_t row = 0; row + at.stride <= rows.size(); row += at.stride) {
     if (constant_ == "air") rows[row].w *= kFactor<T>;
     if (constant_ == "wind")
       for (int axis = 0; axis < 3; ++axis) rows[row][axis] *= kFactor<T>;
     if (constant_ == "spheres")
       for (std::size_t sphere = 0; sphere < spheres; ++sphere)
         rows[row + shared::kRowHeadVec4s + sphere * shared::kRowSphereVec4s].w *= kFactor<T>;
+    for (std::size_t solid = row + at.solids; solid < row + at.meshes; solid += shared::kRowSolidVec4s) {
+      if (constant_ == "solids") rows[solid].w += length_m;      // their reach
+      if (constant_ == "solid rows") rows[solid].y += length_m;  // their place
+    }
+    for (std::size_t mesh = row + at.meshes; mesh < row + at.air; mesh += shared::kRowMeshVec4s) {
+      if (constant_ == "meshes") rows[mesh].w += length_m;
+      if (constant_ == "mesh rows") rows[mesh].y += length_m;
+    }
+    if (constant_ == "air rows") rows[row + at.air].z += T(0.01);
+    if (constant_ == "noise") rows[row + at.air + 2].y *= kFactor<T>;
+    if (constant_ == "seed") rows[row + at.air + 2].x += T(1);
+    if (constant_ == "tilted floor") rows[row + at.floor].w += length_m;
   }
 }
 
@@ -84,7 +100,7 @@ template void Perturbation::apply(const Model&, shared::ParamsOf<float>&) const;
 template void Perturbation::apply(const Model&, shared::ParamsOf<double>&) const;
 template void Perturbation::apply(ConstraintRows<float>&) const;
 template void Perturbation::apply(ConstraintRows<double>&) const;
-template void Perturbation::apply(std::span<glm::vec<4, float>>, std::uint32_t, std::size_t) const;
-template void Perturbation::apply(std::span<glm::vec<4, double>>, std::uint32_t, std::size_t) const;
+template void Perturbation::apply(const Model&, std::span<glm::vec<4, float>>) const;
+template void Perturbation::apply(const Model&, std::span<glm::vec<4, double>>) const;
 
 }  // namespace weft

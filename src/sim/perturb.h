@@ -27,10 +27,9 @@ class Perturbation {
   void apply(const Model& model, shared::ParamsOf<T>& params) const;
   template <class T>
   void apply(ConstraintRows<T>& constraints) const;
-  /// @param rows     one substep table, `stride` vectors a row
-  /// @param spheres  of the scene
+  /// @param rows  one substep table
   template <class T>
-  void apply(std::span<glm::vec<4, T>> rows, std::uint32_t stride, std::size_t spheres) const;
+  void apply(const Model& model, std::span<glm::vec<4, T>> rows) const;
 
  private:
   std::string pass_, constant_;

@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "model/distance_grid.h"
+#include "model/solids.h"
 #include "sim/simulation.h"
 
 namespace weft {
@@ -33,8 +35,13 @@ State shaken(const Model& model, const State& from) {
   return state;
 }
 
-/// Moves the cloth so that its middle lies on the first sphere's surface, or on the floor when there is none,
-/// and sends it inwards.
+bool has_collider(const Scene& scene) {
+  return scene.floor || !scene.spheres.empty() || !scene.capsules.empty() || !scene.boxes.empty() ||
+         !scene.meshes.empty();
+}
+
+/// Moves the cloth so that its middle lies in the first sphere, capsule or box, or on the floor when there is
+/// none, and sends it inwards.
 State in_contact(const Model& model, const State& from) {
   const Scene& scene = model.scene;
   State state = from;
@@ -47,6 +54,11 @@ State in_contact(const Model& model, const State& from) {
   if (scene.floor) target.y = scene.floor->height_m;
   if (!scene.spheres.empty())
     target = sphere_center_at(scene.spheres[0], 0.0) + glm::dvec3(0.0, 0.9 * scene.spheres[0].radius_m, 0.0);
+  else if (const std::vector<Solid> solids = solids_of(scene); !solids.empty())
+    target = frame_at(solids[0], 0.0).center_m +
+             glm::dvec3(0.0, 0.8 * (solids[0].radius_m + solids[0].half_m.z), 0.0);
+  else if (!scene.meshes.empty())
+    target = frame_at(scene.meshes[0], 0.0).center_m;
   const glm::dvec3 shift = target - 0.5 * (lowest + highest);
   for (glm::dvec3& x : state.position) x += shift;
   for (glm::dvec3& v : state.velocity) v.y -= 3.0;
@@ -79,8 +91,7 @@ std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
     reference->advance(model.scene.solver.frame_s, reference->plan().substeps);
   states.push_back({"2 frames on", reference->read()});
   states.push_back({"shaken", shaken(model, states[0].state)});
-  if (model.scene.floor || !model.scene.spheres.empty())
-    states.push_back({"in contact", in_contact(model, states[2].state)});
+  if (has_collider(model.scene)) states.push_back({"in contact", in_contact(model, states[2].state)});
   if (model.scene.self_collision) states.push_back({"folded", folded(model, states[0].state)});
   return states;
 }

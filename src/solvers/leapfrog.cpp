@@ -11,9 +11,10 @@ constexpr auto kSteps = joined_steps(
                SolverStep{&cell_scan, Block::substep}, SolverStep{&cell_fill, Block::substep},
                SolverStep{&cell_sort, Block::substep}, SolverStep{&pair_gather, Block::substep},
                SolverStep{&touch_count, Block::substep}, SolverStep{&self_contact, Block::substep},
-               SolverStep{&integrate, Block::substep}},
+               SolverStep{&aerodynamics, Block::substep}, SolverStep{&integrate, Block::substep}},
     kAfterDrift,
-    std::array{SolverStep{&integrate, Block::frame_end},  // the closing half kick
+    std::array{SolverStep{&aerodynamics, Block::frame_end},
+               SolverStep{&integrate, Block::frame_end},  // the closing half kick
                SolverStep{&normals, Block::frame_end}});
 
 }  // namespace

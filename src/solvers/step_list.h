@@ -20,13 +20,15 @@ constexpr std::array<SolverStep, (n + ...)> joined_steps(const std::array<Solver
   return all;
 }
 
-/// What follows a drift: moving pins into their places, then springs that are too long pulled back, colour by
-/// colour.
+/// What follows a drift: contact with what moves or leans, moving pins into their places, then springs that
+/// are too long pulled back, colour by colour.
 inline constexpr auto kAfterDrift = [] {
-  std::array<SolverStep, 1 + kNearSpringColours> steps{};
-  steps[0] = {&pin_place, Block::substep};
+  std::array<SolverStep, 3 + kNearSpringColours> steps{};
+  steps[0] = {&solid_contact, Block::substep};
+  steps[1] = {&mesh_contact, Block::substep};
+  steps[2] = {&pin_place, Block::substep};
   for (std::uint32_t item = 0; item < kNearSpringColours; ++item)
-    steps[1 + item] = {&strain_limit, Block::substep, 0, item};
+    steps[3 + item] = {&strain_limit, Block::substep, 0, item};
   return steps;
 }();
 

@@ -7,8 +7,9 @@
 namespace weft {
 namespace {
 
-constexpr auto kSteps = joined_steps(std::array{SolverStep{&integrate, Block::substep}}, kAfterDrift,
-                                     std::array{SolverStep{&normals, Block::frame_end}});
+constexpr auto kSteps = joined_steps(
+    std::array{SolverStep{&aerodynamics, Block::substep}, SolverStep{&integrate, Block::substep}},
+    kAfterDrift, std::array{SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

@@ -210,7 +210,7 @@ Step newton_step(const Landscape& landscape, const Vectors& g, double radius, do
 
 /// Why the scene can have no rest, before anything is computed; empty when it may.
 std::string no_rest(const Model& model) {
-  if (model.scene.wind && model.scene.air) return "it hangs in a wind";
+  if (model.scene.wind && (model.scene.air || model.scene.aerodynamics)) return "it hangs in a wind";
   for (const double w : model.relative_inverse_mass)
     if (w == 0.0) return "";
   return "nothing is pinned";

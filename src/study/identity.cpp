@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <optional>
 
+#include "core/cache.h"
 #include "scene/parameters.h"
 
 namespace weft::study {
@@ -20,7 +20,11 @@ struct ExactText {
   std::string operator()(const std::string& v) const { return v; }
   std::string operator()(const MotionKeys& keys) const {
     std::string text;
-    for (const MotionKey& key : keys) text += (*this)(key.time_s) + ":" + (*this)(key.place_m) + ";";
+    for (const MotionKey& key : keys) {
+      text += fmt::format("{}:{}", (*this)(key.time_s), (*this)(key.place_m));
+      if (key.rotation_deg != glm::dvec3(0.0)) text += fmt::format("@{}", (*this)(key.rotation_deg));
+      text += ';';
+    }
     return text;
   }
 };
@@ -56,21 +60,9 @@ std::string canonical_scene(const Scene& scene) {
   return text;
 }
 
-std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
+std::uint64_t hash_of(std::string_view bytes) { return fnv1a_64(bytes); }
 
 std::string name_of(std::string_view bytes) { return fmt::format("{:016x}", hash_of(bytes)); }
-
-std::filesystem::path cache_folder() {
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  if (xdg != nullptr && *xdg == '/') return std::filesystem::path(xdg) / "weft";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".cache" / "weft";
-  return {};
-}
 
 bool make_folder(const std::filesystem::path& folder) {
   std::error_code failure;

@@ -23,9 +23,6 @@ std::uint64_t hash_of(std::string_view bytes);
 /// hash_of as 16 hexadecimal digits: a file name.
 std::string name_of(std::string_view bytes);
 
-/// $XDG_CACHE_HOME/weft, else ~/.cache/weft; empty when neither is an absolute path: then nothing is kept.
-std::filesystem::path cache_folder();
-
 /// Makes a folder with those above it. Returns false when that is not possible.
 bool make_folder(const std::filesystem::path& folder);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/cache.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/identity.h"

@@ -156,11 +156,13 @@ double median(std::vector<double> values) {
 
 /// The scene with nothing in it that takes or gives energy, or nothing when contact could.
 std::optional<Model> conservative(const Model& model) {
-  if (!model.scene.spheres.empty()) return {};
   Scene scene = model.scene;
+  if (!scene.spheres.empty() || !scene.capsules.empty() || !scene.boxes.empty() || !scene.meshes.empty())
+    return {};
   scene.material.damping_s = 0.0;
   scene.air.reset();
   scene.wind.reset();
+  scene.aerodynamics.reset();
   scene.floor.reset();
   return build_model(scene);
 }

@@ -102,7 +102,7 @@ Application::Application(const ViewerOptions& options)
   constant_facts_.device = device_.info().name;
   constant_facts_.software = device_.info().software;
   constant_facts_.samples = static_cast<std::uint32_t>(painter_.samples());
-  constant_facts_.scenes = list_scenes();
+  constant_facts_.scenes = numbered_scenes();
   constant_facts_.materials = list_materials();
   constant_facts_.validating = device_.validating();
   constant_facts_.present_modes = swapchain_.present_modes();

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/reader.h"
+
 namespace weft {
 namespace {
 
@@ -107,11 +109,6 @@ bool item_widgets(std::string_view section, Scene& scene, std::size_t item) {
   return changed;
 }
 
-template <class List>
-void erase_item(List& list, std::size_t item) {
-  list.erase(list.begin() + static_cast<std::ptrdiff_t>(item));
-}
-
 bool list_widgets(std::string_view section, Scene& scene) {
   bool changed = false;
   for (std::size_t item = 0; item < item_count(scene, section); ++item) {
@@ -120,7 +117,7 @@ bool list_widgets(std::string_view section, Scene& scene) {
     ImGui::SameLine();
     const bool removed = ImGui::SmallButton("remove");
     if (removed) {
-      section == "pins" ? erase_item(scene.pins, item) : erase_item(scene.spheres, item);
+      remove_item(scene, section, item);
     } else {
       changed |= item_widgets(section, scene, item);
     }
@@ -151,7 +148,7 @@ bool parameter_widget(const Parameter& parameter, Scene& scene, std::size_t item
 void add_visible_section(Scene& scene, std::string_view section) {
   const double cell_m = scene.cloth.width_m / std::max(1.0, scene.cloth.resolution - 1.0);
   const bool was_there = has_section(scene, section);
-  if (section == "wind" && !scene.air) add_visible_section(scene, "air");
+  if (section == "wind" && !scene.air && !scene.aerodynamics) add_visible_section(scene, "air");
   add_section(scene, section);
   if (section == "air" && !was_there) scene.air->drag_kg_m2_s = 0.1;
   if (section == "wind" && !was_there) scene.wind->velocity_m_s = {0.0, 0.0, 3.0};
@@ -159,6 +156,21 @@ void add_visible_section(Scene& scene, std::string_view section) {
   if (section == "spheres") {
     scene.spheres.back().center_m = scene.cloth.center_m - glm::dvec3(0.0, 0.8 * scene.cloth.height_m, 0.0);
     scene.spheres.back().radius_m = 0.25 * scene.cloth.width_m;
+  }
+  const glm::dvec3 under_m = scene.cloth.center_m - glm::dvec3(0.0, 0.8 * scene.cloth.height_m, 0.0);
+  if (section == "capsules") {
+    CapsuleSection& capsule = scene.capsules.back();
+    capsule.a_m = under_m - glm::dvec3(0.5 * scene.cloth.width_m, 0.0, 0.0);
+    capsule.b_m = under_m + glm::dvec3(0.5 * scene.cloth.width_m, 0.0, 0.0);
+    capsule.radius_m = 0.1 * scene.cloth.width_m;
+  }
+  if (section == "meshes") {
+    scene.meshes.back().file = (assets_dir() / "meshes" / "ring.obj").string();
+    scene.meshes.back().center_m = under_m;
+  }
+  if (section == "boxes") {
+    scene.boxes.back().center_m = under_m;
+    scene.boxes.back().size_m = glm::dvec3(0.4 * scene.cloth.width_m);
   }
 }
 
@@ -171,7 +183,11 @@ bool section_widget(std::string_view section, Scene& scene, const std::string& c
   if (!always_there(section)) {
     if (ImGui::Checkbox("##on", &on)) {
       on ? add_visible_section(scene, section) : remove_section(scene, section);
-      if (section == "air" && !on) remove_section(scene, "wind");  // wind needs air
+      // Wind needs air, and its noise aerodynamics.
+      if ((section == "air" || section == "aerodynamics") && !on) {
+        if (!scene.air && !scene.aerodynamics) remove_section(scene, "wind");
+        if (scene.wind && !scene.aerodynamics) scene.wind->noise_m_s = 0.0;
+      }
       changed = true;
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("whether %s is simulated at all", name.c_str());

@@ -29,10 +29,16 @@ TEST(Lists, EachHasTheSameRowsInEveryFormat) {
   }
 }
 
-TEST(Lists, ThereAreSixScenesAndEachIsFoundByNumberAndByName) {
+TEST(Lists, SixScenesAreFoundByNumberAndAllByName) {
   const Json scenes = json_of({"scenes", "--format", "json"});
-  ASSERT_EQ(scenes.size(), 6u);
-  for (const Json& scene : scenes) {
+  ASSERT_GT(scenes.size(), 6u);
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const Json& scene = scenes[k];
+    if (k >= 6) {
+      EXPECT_EQ(scene["number"], "") << scene["name"];
+      EXPECT_EQ(json_of({"plan", scene["name"], "--format", "json"})["scene"], scene["title"]);
+      continue;
+    }
     const std::string number = std::to_string(scene["number"].get<int>());
     const Json by_number = json_of({"plan", number, "--format", "json"});
     EXPECT_EQ(by_number, json_of({"plan", scene["name"], "--format", "json"}));

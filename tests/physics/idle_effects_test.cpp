@@ -28,8 +28,10 @@ std::uint64_t hash_after_frames(const Scene& scene) {
 TEST(IdleEffects, ChangeNoBit) {
   const Scene scene = swinging();
   const std::uint64_t expected = hash_after_frames(scene);
-  for (const char* effect : {"strain_limit", "floor", "spheres", "self_collision"})
+  for (const char* effect :
+       {"strain_limit", "floor", "spheres", "capsules", "boxes", "meshes", "self_collision"})
     EXPECT_EQ(hash_after_frames(with_effect(scene, effect)), expected) << effect;
+  EXPECT_EQ(hash_after_frames(swinging({"aerodynamics={drag=0, lift=0}"})), expected);
 }
 
 TEST(IdleEffects, ZeroStrengthIsAbsence) {

@@ -47,7 +47,7 @@ TEST(Camera, ClipSpaceIsVulkansWithReversedDepth) {
 }
 
 TEST(Camera, DefaultViewHoldsEverySceneWithoutWaste) {
-  for (const AssetInfo& info : list_scenes())
+  for (const AssetInfo& info : numbered_scenes())
     for (const double aspect : {16.0 / 9.0, 1.0, 0.5}) {
       const Model model = build_model(load_scene(info.file).scene);
       const Camera camera = default_camera(model, aspect);
@@ -68,7 +68,7 @@ TEST(Camera, DefaultViewHoldsEverySceneWithoutWaste) {
 
 TEST(Camera, DefaultViewHoldsTheClothWhereverItGoes) {
   constexpr double kAspect = 16.0 / 9.0;
-  for (const AssetInfo& info : list_scenes()) {
+  for (const AssetInfo& info : numbered_scenes()) {
     const Model model = build_model(load_scene(info.file).scene);
     const Camera camera = default_camera(model, kAspect);
     const auto simulation = make_cpu_simulation(model, find_solver(model.scene.solver.name), "f32");

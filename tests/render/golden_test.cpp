@@ -77,7 +77,7 @@ TEST_F(Goldens, ToleranceTellsPicturesApart) {
 }
 
 TEST_F(Goldens, SixScenesAfterAQuarterSecond) {
-  for (const AssetInfo& info : list_scenes()) {
+  for (const AssetInfo& info : numbered_scenes()) {
     const Model model = build_model(load_scene(info.file).scene);
     const auto simulation = GpuSimulation::create(device(), model, find_solver(model.scene.solver.name));
     for (int frame = 0; frame < 15; ++frame)

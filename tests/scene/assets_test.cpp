@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Assets, SixScenesInOrderLoadWithoutWarnings) {
-  const auto scenes = list_scenes();
+  const auto scenes = numbered_scenes();
   ASSERT_EQ(scenes.size(), 6u);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const LoadedScene loaded = load_scene(scenes[k].file);
@@ -25,6 +25,17 @@ TEST(Assets, SixScenesInOrderLoadWithoutWarnings) {
     ASSERT_TRUE(loaded.scene.expect.has_value()) << scenes[k].name;
     EXPECT_TRUE(loaded.scene.expect->max_stretch && loaded.scene.expect->at_time_s) << scenes[k].name;
     EXPECT_TRUE(loaded.scene.gravity.has_value());
+  }
+}
+
+TEST(Assets, TheOtherScenesFollowAndLoadWithoutWarnings) {
+  const auto scenes = list_scenes();
+  ASSERT_GT(scenes.size(), 6u);
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    EXPECT_EQ(scenes[k].name.front() >= '1' && scenes[k].name.front() <= '6', k < 6) << scenes[k].name;
+    const LoadedScene loaded = load_scene(scenes[k].file);
+    EXPECT_TRUE(loaded.warnings.empty()) << scenes[k].name << ": " << loaded.warnings.at(0);
+    EXPECT_TRUE(loaded.scene.expect.has_value()) << scenes[k].name;
   }
 }
 

@@ -31,7 +31,7 @@ class GpuSimulationTest : public GpuTest {
 
 // docs/float-form.md: on a device with IEEE division and square root the bits are the reference's.
 TEST_F(GpuSimulationTest, equals_the_float_reference_for_100_substeps_of_every_scene) {
-  for (const AssetInfo& asset : list_scenes()) {
+  for (const AssetInfo& asset : numbered_scenes()) {
     const Model model = build_model(load_scene(asset.file).scene);
     const auto gpu = on_gpu(model);
     const auto cpu = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
@@ -109,7 +109,7 @@ TEST_F(GpuSimulationTest, gives_the_same_bits_through_the_staging_path) {
 }
 
 TEST_F(GpuSimulationTest, records_the_dispatches_and_allocates_the_bytes_of_its_plan) {
-  for (const AssetInfo& asset : list_scenes()) {
+  for (const AssetInfo& asset : numbered_scenes()) {
     const Model model = build_model(load_scene(asset.file).scene);
     const auto simulation = on_gpu(model);
     const Plan& plan = simulation->plan();

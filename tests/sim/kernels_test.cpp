@@ -61,7 +61,7 @@ Model scene_of_shape(const std::string& file, std::uint32_t resolution, double h
 
 // docs/float-form.md: f(b→a) = −f(a→b) to the bit, so a spring may be evaluated once or twice.
 TEST_F(KernelsTest, equal_the_direct_one_on_every_scene) {
-  for (const AssetInfo& asset : list_scenes())
+  for (const AssetInfo& asset : numbered_scenes())
     expect_equal_kernels(scene_of_shape(asset.file, 33, 1.0), asset.name);
 }
 

@@ -25,7 +25,7 @@ namespace {
 class ValidateTest : public GpuTest {};
 
 TEST_F(ValidateTest, passes_every_scene_and_covers_every_step) {
-  for (const AssetInfo& asset : list_scenes()) {
+  for (const AssetInfo& asset : numbered_scenes()) {
     const Model model = build_model(load_scene(asset.file).scene);
     const ValidationReport report =
         validate(device(), model, find_solver("leapfrog"), {.lockstep_frames = 1});
