@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <thread>
@@ -18,24 +19,24 @@ namespace {
 
 constexpr std::uint32_t kThreadsMax = 1024;
 
-/// The most threads that a trial may find best.
-std::uint32_t threads_most(std::uint32_t option) {
+/// The most threads that a trial may find best: more than there are cores would only wait for each other.
+std::uint32_t threads_most() {
+  const std::uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kThreadsMax);
   const char* text = std::getenv("WEFT_THREADS");
-  if (option != 0) return option;
-  if (text == nullptr) return std::clamp(std::thread::hardware_concurrency(), 1u, kThreadsMax);
+  if (text == nullptr) return cores;
   std::uint32_t count = 0;
   const char* const end = text + std::strlen(text);
   const auto [stopped, failure] = std::from_chars(text, end, count);
   if (failure != std::errc() || stopped != end || count < 1 || count > kThreadsMax)
     throw error(Exit::usage, "WEFT_THREADS is \"{}\"; it must be a number of threads from 1 to {}", text,
                 kThreadsMax);
-  return count;
+  return std::min(count, cores);
 }
 
 ThreadChoice choice_for(const Cloth& cloth, const EngineOptions& options) {
   const auto rows_allow = static_cast<std::uint32_t>(std::max<std::size_t>(1, cloth.ny() / kRowsPerBandMin));
   if (options.threads != 0) return ThreadChoice::fixed(std::min(options.threads, rows_allow));
-  return ThreadChoice(std::min(threads_most(options.threads_max), rows_allow), cloth.nx() * cloth.ny());
+  return ThreadChoice(std::min(threads_most(), rows_allow), cloth.nx() * cloth.ny());
 }
 
 bool is_xpbd(const Plan& plan) {

@@ -14,9 +14,8 @@
 namespace weft::native {
 
 struct EngineOptions {
-  std::uint32_t threads = 0;      ///< exactly that many; 0: by trial
-  std::uint32_t threads_max = 0;  ///< of the trial; 0: WEFT_THREADS, else as many as there are cores
-  std::string vector;             ///< a kernel's name; empty: WEFT_VECTOR, else the widest
+  std::uint32_t threads = 0;  ///< exactly that many; 0: by trial, at most WEFT_THREADS and one a core
+  std::string vector;         ///< a kernel's name; empty: WEFT_VECTOR, else the widest
 };
 
 /// Why the vector kernels do not run this plan; empty when they do.

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint64_t kAloneMax = 48 * 48;  // particles; handing rows on costs more than it saves
 constexpr double kTurn_s = 2e-4;              // hides what waking the threads costs
 constexpr std::uint32_t kTurnSubstepsMax = 64;
-constexpr std::chrono::seconds kTrialEvery{2};
+constexpr double kTrialEvery_s = 2.0;     // of computing
 constexpr double kTrialCostRatio = 20.0;  // at most a twentieth of the time is spent on trials
 constexpr double kSettledShare = 0.3;     // of the latest frame in the time that a substep takes
 constexpr double kHopeless = 3.0;         // times the fastest: not tried further
@@ -42,14 +42,18 @@ void ThreadChoice::begin_trial() {
 }
 
 Turn ThreadChoice::next(std::uint32_t substeps_left) {
-  if (!on_trial() && candidates_.size() > 1 && Clock::now() >= trial_due_) begin_trial();
+  const double rest_s = std::max(distrusted_ ? 0.0 : kTrialEvery_s, kTrialCostRatio * trial_s_);
+  if (!on_trial() && candidates_.size() > 1 && since_trial_s_ >= rest_s) begin_trial();
   if (!on_trial()) return {best_, substeps_left};
   return {candidates_[candidate_], std::min(substeps_left, round_ == 0 ? 2 : turn_substeps_)};
 }
 
 void ThreadChoice::report(const Turn& turn, double seconds) {
   const double substep_s = seconds / turn.substeps;
-  if (!on_trial()) return report_settled(substep_s);
+  if (!on_trial()) {
+    since_trial_s_ += seconds;
+    return report_settled(substep_s);
+  }
   if (turn.threads != candidates_[candidate_]) return;
   trial_s_ += seconds;
   seconds_[candidate_] = std::min(seconds_[candidate_], substep_s);
@@ -73,18 +77,14 @@ void ThreadChoice::end_turn() {
     settled_s_ = 0;
     const auto least = std::ranges::min_element(seconds_);
     best_ = candidates_[static_cast<std::size_t>(least - seconds_.begin())];
-    trial_allowed_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(kTrialCostRatio * trial_s_));
-    trial_due_ = std::max(trial_allowed_, Clock::now() + kTrialEvery);
+    since_trial_s_ = 0;
     return;
   } while (round_ > 0 && seconds_[candidate_] > kHopeless * *std::ranges::min_element(seconds_));
 }
 
 void ThreadChoice::report_settled(double substep_s) {
   settled_s_ = settled_s_ > 0 ? kSettledShare * substep_s + (1 - kSettledShare) * settled_s_ : substep_s;
-  if (best_ == 1 || settled_s_ <= seconds_.front() || Clock::now() < trial_allowed_) return;
-  distrusted_ = true;
-  trial_due_ = Clock::now();
+  distrusted_ = best_ > 1 && settled_s_ > seconds_.front();
 }
 
 }  // namespace weft::native

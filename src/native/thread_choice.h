@@ -3,7 +3,6 @@
 // have become slower than one alone was: with cores taken by others they wait for each other. In that trial
 // their latest substeps count instead of the short turns, which may have met free cores by luck.
 #pragma once
-#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -27,7 +26,6 @@ class ThreadChoice {
   std::uint32_t best() const { return best_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   bool on_trial() const { return round_ < kRounds; }
   void begin_trial();
   void report_settled(double substep_s);
@@ -37,10 +35,10 @@ class ThreadChoice {
   std::vector<std::uint32_t> candidates_;
   std::vector<double> seconds_;  ///< the least a substep took, by candidate
   std::uint32_t best_ = 1, round_ = kRounds, candidate_ = 0, turn_substeps_ = 2;
-  double trial_s_ = 0;       ///< what the latest trial took
-  double settled_s_ = 0;     ///< what a substep took since then; 0 before the first
-  bool distrusted_ = false;  ///< best_ was slower than one thread alone, whatever its turns in the trial say
-  Clock::time_point trial_due_{}, trial_allowed_{};
+  double trial_s_ = 0;        ///< what the latest trial took
+  double settled_s_ = 0;      ///< what a substep took since then; 0 before the first
+  bool distrusted_ = false;   ///< best_ was slower than one thread alone, whatever its turns in the trial say
+  double since_trial_s_ = 0;  ///< computed since then
 };
 
 }  // namespace weft::native

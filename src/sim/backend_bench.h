@@ -35,10 +35,10 @@ struct BackendBenchReport {
   std::vector<BackendRow> rows;
 };
 
-/// Times native by trial, in one thread, by trial with up to twice as many threads as there are cores, and
-/// the first two again while each core runs another thread that computes; the Vulkan device with its fastest
-/// kernel, and the reference. Everybody takes turns, so that what else the machine does
-/// falls on all alike; the best turn tells what the machine can, the median what it did.
+/// Times native by trial, in one thread, in exactly twice as many threads as there are cores, and the first
+/// two again while each core runs another thread that computes; the Vulkan device with its fastest kernel,
+/// and the reference. Everybody takes turns, so that what else the machine does falls on all alike; the best
+/// turn tells what the machine can, the median what it did.
 /// @param device  null: without it
 /// @throws Error(Exit::usage) when native does not run the scene's solver and precision
 BackendBenchReport bench_backends(gpu::Device* device, const Scene&, const BackendBenchOptions& = {});
