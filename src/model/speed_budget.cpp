@@ -75,6 +75,16 @@ double pulled_in_m(const Model& model, const State& start) {
   return most_m * (model.grid.nx + model.grid.ny);
 }
 
+/// How far pins that move are from where they are put next: their keys may have changed meanwhile.
+double pins_jump_m(const Model& model, const State& start) {
+  State placed = start;
+  place_moved_pins(model, placed);
+  double most_m = 0.0;
+  for (const MovedParticle& held : model.moved_particles)
+    most_m = std::max(most_m, glm::distance(placed.position[held.particle], start.position[held.particle]));
+  return most_m;
+}
+
 }  // namespace
 
 double free_mass_ratio(const Model& model) {
@@ -82,6 +92,23 @@ double free_mass_ratio(const Model& model) {
   for (const double inverse : model.relative_inverse_mass)
     if (inverse != 0.0) sum += 1.0 / inverse;
   return sum;
+}
+
+bool gives_by_place(const Model& before, const Model& next) {
+  const Scene &was = before.scene, &is = next.scene;
+  const auto same_motion = [](const PinSection& a, const PinSection& b) { return a.keys == b.keys; };
+  const auto same_sphere = [](const SphereSection& a, const SphereSection& b) {
+    return a.center_m == b.center_m && a.radius_m == b.radius_m && a.velocity_m_s == b.velocity_m_s &&
+           a.keys == b.keys;
+  };
+  const auto floor_m = [](const Scene& s) {
+    return s.floor ? std::optional<double>(s.floor->height_m) : std::nullopt;
+  };
+  return next.relative_inverse_mass != before.relative_inverse_mass ||
+         next.half_thickness_m != before.half_thickness_m ||
+         is.material.strain_limit != was.material.strain_limit || floor_m(is) != floor_m(was) ||
+         !std::ranges::equal(is.pins, was.pins, same_motion) ||
+         !std::ranges::equal(is.spheres, was.spheres, same_sphere);
 }
 
 SpeedBudget::SpeedBudget(const Model& model, const State& start, bool in_double)
@@ -93,7 +120,7 @@ SpeedBudget::SpeedBudget(const Model& model, const State& start, bool in_double)
   given_m_s_ += std::sqrt(2.0 * (begins.kinetic_j + begins.elastic_j + begins.bending_j) / mass_kg);
   // Contact moves what begins inside a collider, or inside the cloth itself, out of it at once.
   const double inside_m = deepest_penetration(model, start) + 2.0 * model.half_thickness_m;
-  given_m_s_ += reaction_1_s_ * (inside_m + pulled_in_m(model, start));
+  given_m_s_ += reaction_1_s_ * (inside_m + pulled_in_m(model, start) + pins_jump_m(model, start));
 }
 
 void SpeedBudget::elapse(const Scene& scene, double duration_s, std::uint32_t substeps, double hand_m_s) {

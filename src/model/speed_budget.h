@@ -7,6 +7,11 @@ namespace weft {
 /// Mass of the free particles in units of the interior particle's.
 double free_mass_ratio(const Model& model);
 
+/// Whether what a change of a running scene gives the cloth depends on where the cloth is: colliders that may
+/// now hold some of it, pins that hold others or elsewhere, another strain limit. Then the budget begins anew
+/// with the state.
+bool gives_by_place(const Model& before, const Model& next);
+
 /// √(2E/M) of a state, E kinetic, elastic and bending energy, is a norm, and no force of a scene makes it
 /// grow faster than a closed form says (docs/physics.md "Divergence"). The mean square speed stays below it.
 class SpeedBudget {
@@ -21,6 +26,7 @@ class SpeedBudget {
   void elapse(const Scene& scene, double duration_s, std::uint32_t substeps, double hand_m_s = 0.0);
 
   /// Goes on with another model at the same positions and velocities: what stiffer springs store is added.
+  /// Not where gives_by_place says that the state has to be known.
   void adopt(const Model& before, const Model& next);
 
   /// Root of the mean square speed, weighed by mass, that is allowed [m/s]: kMargin times what was given.

@@ -155,9 +155,7 @@ template <class T>
 bool CpuSimulation<T>::adopt(const Model& model) {
   Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
-  // Both give energy that depends on the state.
-  const bool anew = model.relative_inverse_mass != model_.relative_inverse_mass ||
-                    model.scene.material.strain_limit != model_.scene.material.strain_limit;
+  const bool anew = gives_by_place(model_, model);
   const State state = read();
   under_way_ = false;
   budget_.adopt(model_, model);

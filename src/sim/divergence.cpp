@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/text.h"
 #include "model/measures.h"
 #include "shared/watch.h"
 
@@ -32,9 +33,10 @@ std::string likely_cause(const Divergence& found, const Model& model, const Plan
   const double step_max_s = solver.step_max_s(model.bound);
   if (found.substeps > 0 && solver.substeps_default == 0 && found.frame_s / found.substeps > step_max_s)
     return fmt::format(
-        "too few substeps: {} is stable up to {:.3g} s here, which a frame of {:.3g} s with {} substeps "
+        "too few substeps: {} is stable up to {:.3g} s here, which a frame of {:.3g} s with {} "
         "exceeds; it needs at least {:.0f} (--substeps auto follows the bound)",
-        solver.name, step_max_s, found.frame_s, found.substeps, std::ceil(found.frame_s / step_max_s));
+        solver.name, step_max_s, found.frame_s, counted(found.substeps, "substep"),
+        std::ceil(found.frame_s / step_max_s));
   if (found.frame == 0) return "the state was not sound when the run began";
   const double ratio = damping_ratios(model).largest;
   if (ratio < kDampingRatioEnough)

@@ -320,9 +320,7 @@ std::optional<State> VulkanSimulation::last_good() {
 bool VulkanSimulation::adopt(const Model& model) {
   Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
-  // Both give energy that depends on the state.
-  const bool anew = model.relative_inverse_mass != model_.relative_inverse_mass ||
-                    model.scene.material.strain_limit != model_.scene.material.strain_limit;
+  const bool anew = gives_by_place(model_, model);
   State state;
   if (anew) state = read();
   wait();
