@@ -36,11 +36,6 @@ void device_lines(const RunningScene& running, const PanelFacts& facts) {
   if (facts.software) line(kWarning, native ? "no GPU is used" : "software device: no GPU is used");
 }
 
-/// Two decimals, or two digits of what is too slow for them.
-std::string factor_text(double factor) {
-  return factor >= 0.095 || factor == 0.0 ? fmt::format("{:.2f}", factor) : fmt::format("{:.2g}", factor);
-}
-
 /// Milliseconds, or seconds where those would not fit the panel's width.
 std::string duration_text(double ms) {
   return ms < 1e4 ? fmt::format("{:.1f} ms", ms) : fmt::format("{:.0f} s", 1e-3 * ms);
@@ -95,6 +90,8 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0f);
   }
   ImGui::Begin("numbers", nullptr, kNote);
+  const float right = Panels::kWidth * scale - ImGui::GetStyle().WindowPadding.x;
+  if (view.panels) ImGui::PushTextWrapPos(right);  // a line that is cut off would hide what it warns of
   const Grid& grid = running.model().grid;
   const RunFigures& figures = running.figures();
   device_lines(running, facts);
@@ -110,6 +107,7 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   if (facts.validating)
     line(facts.validation_messages > 0 ? kBad : ImGui::GetStyleColorVec4(ImGuiCol_Text),
          fmt::format("validation: {} messages", facts.validation_messages));
+  if (view.panels) ImGui::PopTextWrapPos();
   const float height = ImGui::GetWindowHeight();
   ImGui::End();
   ImGui::PopStyleVar();

@@ -21,10 +21,14 @@ std::uint32_t substep_budget(const Pace& pace) {
   return static_cast<std::uint32_t>(std::floor(share * pace.needed));
 }
 
+std::string factor_text(double factor) {
+  return factor >= 0.095 || factor == 0.0 ? fmt::format("{:.2f}", factor) : fmt::format("{:.2g}", factor);
+}
+
 std::string slow_motion_text(const Pace& pace) {
   if (!pace.slow) return {};
-  return fmt::format("{:.2f} x real time: {} substeps needed, budget {}", pace.real_time_factor, pace.needed,
-                     substep_budget(pace));
+  return fmt::format("{} x real time: {} substeps needed, budget {}", factor_text(pace.real_time_factor),
+                     pace.needed, substep_budget(pace));
 }
 
 std::string why_no_stand_in(const Scene& scene) {

@@ -21,6 +21,9 @@ struct Pace {
 /// holds.
 std::uint32_t substep_budget(const Pace&);
 
+/// A share of real time in two decimals, or in two digits where it is too small for them.
+std::string factor_text(double factor);
+
 /// "0.31 x real time: 3600 substeps needed, budget 1116"; empty where the pace holds.
 std::string slow_motion_text(const Pace&);
 

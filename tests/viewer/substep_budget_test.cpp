@@ -16,6 +16,7 @@ Pace slow_pace(double factor, std::uint32_t needed) { return {1.0, factor, true,
 TEST(SubstepBudget, IsWhatGotDoneInAFramesTime) {
   EXPECT_EQ(substep_budget(slow_pace(0.31, 3600)), 1116u);
   EXPECT_EQ(slow_motion_text(slow_pace(0.31, 3600)), "0.31 x real time: 3600 substeps needed, budget 1116");
+  EXPECT_EQ(slow_motion_text(slow_pace(0.0012, 500)), "0.0012 x real time: 500 substeps needed, budget 0");
   // Asked for half speed, a frame has twice the time: 0.31 / 0.5 of what is needed fits.
   EXPECT_EQ(substep_budget({0.5, 0.31, true, 3600}), 2232u);
   EXPECT_EQ(substep_budget({1.0, 1.0, false, 157}), 157u);
