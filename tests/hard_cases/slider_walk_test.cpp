@@ -12,7 +12,7 @@
 #include "model/carry.h"
 #include "model/measures.h"
 #include "scene/reader.h"
-#include "sim/simulation.h"
+#include "sim/native_simulation.h"
 
 namespace weft::hard {
 namespace {
@@ -81,23 +81,31 @@ void flip_switch(Scene& scene) {
   }
 }
 
+bool same_cloth(const ClothSection& a, const ClothSection& b) {
+  return a.resolution == b.resolution && a.width_m == b.width_m && a.height_m == b.height_m &&
+         a.center_m == b.center_m && a.imperfection_m == b.imperfection_m;
+}
+
 /// A cloth in the middle of a walk.
 struct Walker {
   Scene scene;
   Model model;
-  std::unique_ptr<Simulation> simulation;
+  std::unique_ptr<HostSimulation> simulation;
   std::string told;  ///< what was done, for a failure's report
 
-  /// Runs on with another scene, or with the one before where the model refuses it, as the window does.
+  /// Runs on with another scene as the window does: in the same simulation where that can adopt it, else in
+  /// another that the state is carried to; with the scene before where the model refuses the new one.
   void adopt(const Scene& next) {
     try {
       Model made = build_model(next);
       const Step step = step_of(made);
-      auto other = make_cpu_simulation(made, find_solver("leapfrog"), "f32");
-      if (simulation) other->write(carry_state(model, simulation->read(), made));
+      if (!simulation || !same_cloth(scene.cloth, next.cloth) || !simulation->adopt(made)) {
+        auto other = make_native_simulation(made, find_solver("leapfrog"), "f32");
+        if (simulation) other->write(carry_state(model, simulation->read(), made));
+        simulation = std::move(other);
+      }
       scene = next;
       model = std::move(made);
-      simulation = std::move(other);
       frame = step;
     } catch (const Error&) {
       told += " (refused)";
