@@ -21,6 +21,7 @@ void main() {
   uint k = moved_pin_index();
   if (k >= moved_pins.length()) return;
   uint row = pin_row(row_index, moved_pins[k].pin), p = moved_pins[k].particle;
+  if (substeps[row].w != 0.0) return;  // it has let go
   precise real3 x = moved_pins[k].anchor_m + substeps[row].xyz;
   position[p] = real4(x, 0.0);
   velocity[p] = real4(substeps[row + 1u].xyz, 0.0);

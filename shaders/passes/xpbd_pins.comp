@@ -19,6 +19,7 @@ void main() {
   uint k = moved_pin_index();
   if (k >= moved_pins.length()) return;
   uint row = pin_row(row_index, moved_pins[k].pin);
+  if (substeps[row].w != 0.0) return;  // it has let go
   precise real3 moved = substeps[row_index * params.row_stride + 1u].y * substeps[row + 1u].xyz;
   position_next[moved_pins[k].particle] = real4(moved, 0.0);
 }

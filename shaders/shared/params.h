@@ -9,7 +9,7 @@ WEFT_SHARED_BEGIN
 WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
 WEFT_CONST uint kMaxSolids = 64u;              // documented limit of [[capsules]] and [[boxes]] together
 WEFT_CONST uint kMaxMeshes = 8u;               // documented limit of [[meshes]]
-WEFT_CONST uint kMaxMovedPins = 64u;           // documented limit of [[pins]] with keys
+WEFT_CONST uint kMaxMovedPins = 64u;           // documented limit of [[pins]] that move or let go
 WEFT_CONST uint kMovedPinsWide = 4096u;        // particles in a row of the passes over what they hold
 WEFT_CONST float kTinyLengthSquared = 1e-24f;  // m², guards 1/length of coincident particles
 WEFT_CONST float kNoLength = 1e-12f;           // m; a shorter vector from a sphere's centre has no direction
@@ -47,8 +47,8 @@ using Params = ParamsOf<float>;
 //   [2+3s] xyz = centre at the drift's end [m]           w = reach: radius + half thickness [m]
 //   [3+3s] xyz = the centre's travel during the drift [m]  w = friction coefficient
 //   [4+3s] xyz = velocity at the drift's end [m/s]       w unused
-//   then two real4 a pin that moves, in scene order:
-//   [0] xyz = its offset at the drift's end [m]          w unused
+//   then two real4 a pin that moves or lets go, in scene order:
+//   [0] xyz = its offset at the drift's end [m]          w = 1 once it has let go
 //   [1] xyz = its mean velocity during the drift [m/s]   w unused
 //   then ten real4 a capsule or box, capsules first, in scene order:
 //   [0] xyz = centre at the drift's end [m]              w = reach: radius + half thickness [m]
@@ -85,6 +85,12 @@ WEFT_REAL_STRUCT(MovedPin) {
   real3 anchor_m;  // at the cloth's start, without the offset
   uint particle;
   uint pin;  // the how-manieth of those that move
+};
+
+// What keeps a particle within reach of the pinned one that is nearest on the flat cloth.
+WEFT_REAL_STRUCT(Tether) {
+  uint anchor;   // a pinned particle
+  real reach_m;  // the farthest from it; below 0 where the particle is pinned itself
 };
 
 // The rows of `constraints`, which XPBD alone has: x = rest [m], y = compliance 1/k [m/N], z = damping time

@@ -67,10 +67,10 @@ Field resample(const Field& field, const Grid& from, const Grid& to) {
   return result;
 }
 
-std::vector<std::uint32_t> pinned(const Model& model) {
+std::vector<std::uint32_t> pinned(const Model& model, double time_s) {
   std::vector<std::uint32_t> list;
   for (std::uint32_t p = 0; p < model.grid.count(); ++p)
-    if (model.relative_inverse_mass[p] == 0.0) list.push_back(p);
+    if (model.inverse_mass_at(p, time_s) == 0.0) list.push_back(p);
   return list;
 }
 
@@ -106,15 +106,16 @@ State carry_state(const Model& from, const State& state, const Model& to) {
   Field displacement(from.grid.count());
   for (std::size_t p = 0; p < displacement.size(); ++p)
     displacement[p] = state.position[p] - start_from.position[p];
+  if (same_grid(from.grid, to.grid)) next.broken_links = state.broken_links;
   if (!copy) {
     next.position = start_to.position;
     const Field moved = resample(displacement, from.grid, to.grid);
     for (std::size_t p = 0; p < moved.size(); ++p) next.position[p] += moved[p];
     next.velocity = resample(state.velocity, from.grid, to.grid);
   }
-  const std::vector<std::uint32_t> held = pinned(from);
+  const std::vector<std::uint32_t> held = pinned(from, state.time_s);
   const double reach = 1.5 * std::max(1.0 / (from.grid.nx - 1), 1.0 / (to.grid.nx - 1));
-  for (const std::uint32_t p : pinned(to)) {
+  for (const std::uint32_t p : pinned(to, state.time_s)) {
     next.velocity[p] = glm::dvec3(0.0);
     if (copy) continue;
     const std::uint32_t old = nearest(held, from.grid, fraction(to.grid, p), reach);

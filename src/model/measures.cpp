@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "model/distance_grid.h"
+#include "model/links.h"
 #include "model/solids.h"
 #include "model/springs.h"
 
@@ -18,12 +19,13 @@ namespace {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Calls visit(particle, mass [kg]) for every free particle: pinned ones have no finite mass.
+/// Calls visit(particle, mass [kg]) for every particle that is free at a time: pinned ones have no finite
+/// mass.
 template <class Visit>
-void for_each_free(const Model& model, Visit&& visit) {
+void for_each_free(const Model& model, double time_s, Visit&& visit) {
   for (std::uint32_t p = 0; p < model.grid.count(); ++p)
-    if (model.relative_inverse_mass[p] != 0.0)
-      visit(p, model.interior_mass_kg / model.relative_inverse_mass[p]);
+    if (const double inverse = model.inverse_mass_at(p, time_s); inverse != 0.0)
+      visit(p, model.interior_mass_kg / inverse);
 }
 
 std::uint64_t fnv1a(std::uint64_t hash, double value) {
@@ -38,15 +40,17 @@ std::uint64_t fnv1a(std::uint64_t hash, double value) {
 Energy energy(const Model& model, const State& state) {
   Energy sum;
   const glm::dvec3 gravity = model.scene.gravity ? model.scene.gravity->acceleration_m_s2 : glm::dvec3(0.0);
-  for_each_free(model, [&](std::uint32_t p, double mass_kg) {
+  for_each_free(model, state.time_s, [&](std::uint32_t p, double mass_kg) {
     sum.kinetic_j += 0.5 * mass_kg * glm::dot(state.velocity[p], state.velocity[p]);
     sum.gravity_j -= mass_kg * glm::dot(gravity, state.position[p]);
   });
   for_each_spring(model, [&](const SpringKind& kind, std::uint32_t a, std::uint32_t b, double weight) {
+    if (is_broken(state.broken_links, model.grid, kind, a)) return;
     const double elongation_m = glm::distance(state.position[a], state.position[b]) - kind.rest_m;
     sum.elastic_j += 0.5 * weight * kind.stiffness_n_m * elongation_m * elongation_m;
   });
   for_each_triple(model, [&](std::uint32_t minus, std::uint32_t middle, std::uint32_t plus, double kappa) {
+    if (!is_whole_triple(state.broken_links, minus, middle)) return;
     const glm::dvec3 bent = state.position[minus] - 2.0 * state.position[middle] + state.position[plus];
     sum.bending_j += 0.5 * kappa * glm::dot(bent, bent);
   });
@@ -59,7 +63,8 @@ Stretch stretch(const Model& model, const State& state) {
   for (const SpringName name : {kStructuralI, kStructuralJ}) {
     const SpringKind& kind = model.springs[name];
     for_each_join(model, kind, [&](std::uint32_t a, std::uint32_t b, double) {
-      elongation.push_back(glm::distance(state.position[a], state.position[b]) / kind.rest_m - 1.0);
+      if (!is_broken(state.broken_links, model.grid, kind, a))
+        elongation.push_back(glm::distance(state.position[a], state.position[b]) / kind.rest_m - 1.0);
     });
   }
   if (elongation.empty()) return {};
@@ -87,13 +92,14 @@ DampingRatios damping_ratios(const Model& model) {
 
 glm::dvec3 linear_momentum(const Model& model, const State& state) {
   glm::dvec3 sum(0.0);
-  for_each_free(model, [&](std::uint32_t p, double mass_kg) { sum += mass_kg * state.velocity[p]; });
+  for_each_free(model, state.time_s,
+                [&](std::uint32_t p, double mass_kg) { sum += mass_kg * state.velocity[p]; });
   return sum;
 }
 
 glm::dvec3 angular_momentum(const Model& model, const State& state) {
   glm::dvec3 sum(0.0);
-  for_each_free(model, [&](std::uint32_t p, double mass_kg) {
+  for_each_free(model, state.time_s, [&](std::uint32_t p, double mass_kg) {
     sum += mass_kg * glm::cross(state.position[p], state.velocity[p]);
   });
   return sum;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.h"
@@ -10,6 +11,7 @@
 #include "model/motion.h"
 #include "model/springs.h"
 #include "model/step_bound.h"
+#include "model/tethers.h"
 
 namespace weft {
 namespace {
@@ -82,22 +84,43 @@ State flat_state(const Model& model) {
   return state;
 }
 
-/// Which particles the pins with keys hold. Nothing, and no work, where there are none.
+/// When a pin lets go [s]; infinite when it never does.
+double held_until_s(const PinSection& pin) {
+  return pin.release_s.value_or(std::numeric_limits<double>::infinity());
+}
+
+/// For every held particle the pin that holds it longest, of equal ones the first; kNoPin for free ones.
+constexpr std::uint32_t kNoPin = ~0u;
+std::vector<std::uint32_t> owners(const Scene& scene, const Grid& grid) {
+  std::vector<std::uint32_t> owner(grid.count(), kNoPin);
+  for (std::uint32_t k = 0; k < scene.pins.size(); ++k)
+    for_each_held(scene.pins[k], grid, [&](std::uint32_t p) {
+      if (owner[p] == kNoPin || held_until_s(scene.pins[k]) > held_until_s(scene.pins[owner[p]]))
+        owner[p] = k;
+    });
+  return owner;
+}
+
+/// Which particles are held by pins that move or let go. Nothing, and no work, where there are none.
 void find_moved_particles(Model& model) {
   const std::vector<PinSection>& pins = model.scene.pins;
-  for (std::uint32_t p = 0; p < pins.size(); ++p)
-    if (!pins[p].keys.empty()) model.moved_pins.push_back(p);
-  if (model.moved_pins.empty()) return;
-  constexpr std::uint32_t kNone = ~0u, kStill = kNone - 1;
-  std::vector<std::uint32_t> owner(model.grid.count(), kNone);
-  std::uint32_t moved = 0;
-  for (const PinSection& pin : pins) {
-    const std::uint32_t own = pin.keys.empty() ? kStill : moved++;
-    for_each_held(pin, model.grid, [&](std::uint32_t p) { owner[p] = owner[p] == kNone ? own : owner[p]; });
+  std::vector<std::uint32_t> moved(pins.size(), kNoPin);  // the how-manieth of those
+  for (std::uint32_t k = 0; k < pins.size(); ++k) {
+    if (!pins[k].moves() && !pins[k].release_s) continue;
+    moved[k] = static_cast<std::uint32_t>(model.moved_pins.size());
+    model.moved_pins.push_back(k);
   }
+  if (model.moved_pins.empty()) return;
+  const std::vector<std::uint32_t> owner = owners(model.scene, model.grid);
   const State start = flat_state(model);
-  for (std::uint32_t p = 0; p < owner.size(); ++p)
-    if (owner[p] < kStill) model.moved_particles.push_back({p, owner[p], start.position[p]});
+  const std::vector<double> free = relative_inverse_masses(model.grid);
+  std::vector<double> released = model.relative_inverse_mass;
+  for (std::uint32_t p = 0; p < owner.size(); ++p) {
+    if (owner[p] == kNoPin || moved[owner[p]] == kNoPin) continue;
+    model.moved_particles.push_back({p, moved[owner[p]], start.position[p]});
+    if (pins[owner[p]].release_s) released[p] = free[p];
+  }
+  if (released != model.relative_inverse_mass) model.released_inverse_mass = std::move(released);
 }
 
 std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m, double a, double mass_kg) {
@@ -160,6 +183,7 @@ Model build_model(const Scene& scene) {
   for_each_spring(model,
                   [&](const SpringKind&, std::uint32_t, std::uint32_t, double) { ++model.spring_count; });
   model.bound = step_bound(model);
+  if (scene.tethers) model.tethers = find_tethers(model, scene.tethers->slack);
   return model;
 }
 
@@ -168,6 +192,8 @@ Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_s
   Model scaled = model;
   for (std::size_t p = 0; p < inverse_mass_scale.size(); ++p)
     scaled.relative_inverse_mass[p] *= inverse_mass_scale[p];
+  for (std::size_t p = 0; p < scaled.released_inverse_mass.size(); ++p)
+    scaled.released_inverse_mass[p] *= inverse_mass_scale[p];
   scaled.bound = step_bound(scaled);
   return scaled;
 }
@@ -178,11 +204,40 @@ State start_state(const Model& model) {
   return state;
 }
 
+double Model::inverse_mass_at(std::uint32_t particle, double time_s) const {
+  if (released_inverse_mass.empty() || relative_inverse_mass[particle] == released_inverse_mass[particle])
+    return relative_inverse_mass[particle];
+  const auto held = std::ranges::lower_bound(moved_particles, particle, {}, &MovedParticle::particle);
+  const bool released = has_released(scene.pins[moved_pins[held->pin]], time_s);
+  return released ? released_inverse_mass[particle] : 0.0;
+}
+
+bool has_released(const PinSection& pin, double time_s) {
+  constexpr double kRoundOff_s = 1e-9;  // of a sum of substeps that should end at the release
+  return time_s > held_until_s(pin) - kRoundOff_s;
+}
+
+glm::dvec3 pin_offset_at(const Scene& scene, const PinSection& pin, double time_s) {
+  if (!pin.keys.empty()) return place_at(pin.keys, time_s);
+  const auto sphere = attached_sphere(scene, pin);
+  if (!sphere) return glm::dvec3(0.0);
+  return sphere_center_at(scene.spheres[*sphere], time_s) - sphere_center_at(scene.spheres[*sphere], 0.0);
+}
+
+glm::dvec3 pin_velocity_before(const Scene& scene, const PinSection& pin, double time_s) {
+  if (!pin.keys.empty()) return velocity_before(pin.keys, time_s);
+  const auto index = attached_sphere(scene, pin);
+  if (!index) return glm::dvec3(0.0);
+  const SphereSection& sphere = scene.spheres[*index];
+  return sphere.keys.empty() ? sphere.velocity_m_s : velocity_before(sphere.keys, time_s);
+}
+
 void place_moved_pins(const Model& model, State& state) {
   for (const MovedParticle& held : model.moved_particles) {
-    const MotionKeys& keys = model.scene.pins[model.moved_pins[held.pin]].keys;
-    state.position[held.particle] = held.anchor_m + place_at(keys, state.time_s);
-    state.velocity[held.particle] = velocity_before(keys, state.time_s);
+    const PinSection& pin = model.scene.pins[model.moved_pins[held.pin]];
+    if (has_released(pin, state.time_s)) continue;
+    state.position[held.particle] = held.anchor_m + pin_offset_at(model.scene, pin, state.time_s);
+    state.velocity[held.particle] = pin_velocity_before(model.scene, pin, state.time_s);
   }
 }
 

@@ -38,7 +38,7 @@ struct StepBound {
   double gamma_1_s = 0.0;
 };
 
-/// A particle that a pin with keys holds.
+/// A particle that a pin with keys, on a sphere or with a release holds.
 struct MovedParticle {
   std::uint32_t particle;
   std::uint32_t pin;    ///< index in Model::moved_pins
@@ -47,17 +47,27 @@ struct MovedParticle {
 
 struct DistanceGrid;  // model/distance_grid.h
 
+/// The pinned particle that is nearest on the flat cloth, and the farthest that a particle may be from it.
+struct Tether {
+  std::uint32_t anchor = 0;
+  double reach_m = -1.0;  ///< below 0: none, the particle is pinned itself
+};
+
 struct Model {
   Scene scene;
   Grid grid;
   double interior_mass_kg = 0.0;              ///< m0 = rho·a²
   std::vector<double> relative_inverse_mass;  ///< m0/m: 1 inside, 2 edge, 4 corner, 0 pinned; shape [count]
+  std::vector<double>
+      released_inverse_mass;  ///< the same once every pin has let go that will; empty: none will
   std::array<SpringKind, kSpringKindCount> springs;  ///< kinds with k = 0 are absent
   /// kappa = B/a² of an interior line [N/m]: along i (the weft), along j (the warp).
   std::array<double, 2> bend_kappa_n_m{};
-  double half_thickness_m = 0.0;               ///< of the cloth in contact; 0 without self-collision
-  std::vector<std::uint32_t> moved_pins;       ///< pins with keys, as indices in scene.pins, ascending
-  std::vector<MovedParticle> moved_particles;  ///< ascending; a particle of several pins is the first one's
+  double half_thickness_m = 0.0;          ///< of the cloth in contact; 0 without self-collision
+  std::vector<std::uint32_t> moved_pins;  ///< that move or let go, as indices in scene.pins, ascending
+  std::vector<MovedParticle>
+      moved_particles;          ///< ascending; one of several pins is that which holds longest's
+  std::vector<Tether> tethers;  ///< shape [count]; empty without [tethers]
   std::vector<std::shared_ptr<const DistanceGrid>> meshes;  ///< one of [[meshes]] each, in scene order
   std::uint64_t spring_count = 0;  ///< springs that exist and do not join two pinned particles
   StepBound bound;
@@ -69,6 +79,12 @@ struct Model {
            springs[kFlexI].stiffness_n_m != springs[kFlexJ].stiffness_n_m ||
            bend_kappa_n_m[0] != bend_kappa_n_m[1];
   }
+  /// m0/m when no pin holds any more that lets go: what bounds must count with.
+  double loosest_inverse_mass(std::uint32_t particle) const {
+    return released_inverse_mass.empty() ? relative_inverse_mass[particle] : released_inverse_mass[particle];
+  }
+  /// m0/m at a time [s]; 0 while a pin holds the particle.
+  double inverse_mass_at(std::uint32_t particle, double time_s) const;
   double inverse_mass(std::uint32_t particle) const {
     return relative_inverse_mass[particle] / interior_mass_kg;
   }
@@ -79,6 +95,8 @@ struct Model {
 struct State {
   std::vector<glm::dvec3> position, velocity;
   double time_s = 0.0;
+  std::vector<std::uint32_t> broken_links =
+      {};  ///< bits of shared/links.h, shape [count]; empty: none broken
 };
 
 /// The grid of a scene's cloth: the grid rule of docs/physics.md.
@@ -89,6 +107,13 @@ Model build_model(const Scene& scene);
 
 /// For tests of extreme mass ratios only: the same model with every particle's inverse mass scaled.
 Model with_mass_scale(const Model& model, std::span<const double> inverse_mass_scale);
+
+/// Whether a pin has let go by a time [s].
+bool has_released(const PinSection& pin, double time_s);
+
+/// How far a pin is from its place at the start [m], and its velocity up to that moment [m/s].
+glm::dvec3 pin_offset_at(const Scene& scene, const PinSection& pin, double time_s);
+glm::dvec3 pin_velocity_before(const Scene& scene, const PinSection& pin, double time_s);
 
 /// The scene's start: flat, at rest, with its imperfection; pins with keys where these are at time 0.
 State start_state(const Model& model);

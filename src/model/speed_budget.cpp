@@ -89,26 +89,19 @@ double pins_jump_m(const Model& model, const State& start) {
 
 double free_mass_ratio(const Model& model) {
   double sum = 0.0;
-  for (const double inverse : model.relative_inverse_mass)
-    if (inverse != 0.0) sum += 1.0 / inverse;
+  for (std::uint32_t p = 0; p < model.grid.count(); ++p)
+    if (const double inverse = model.loosest_inverse_mass(p); inverse != 0.0) sum += 1.0 / inverse;
   return sum;
 }
 
 bool gives_by_place(const Model& before, const Model& next) {
   const Scene &was = before.scene, &is = next.scene;
-  const auto same_motion = [](const PinSection& a, const PinSection& b) { return a.keys == b.keys; };
-  const auto same_sphere = [](const SphereSection& a, const SphereSection& b) {
-    return a.center_m == b.center_m && a.radius_m == b.radius_m && a.velocity_m_s == b.velocity_m_s &&
-           a.keys == b.keys;
-  };
-  const auto floor_m = [](const Scene& s) {
-    return s.floor ? std::optional<double>(s.floor->height_m) : std::nullopt;
-  };
   return next.relative_inverse_mass != before.relative_inverse_mass ||
+         next.released_inverse_mass != before.released_inverse_mass ||
          next.half_thickness_m != before.half_thickness_m ||
-         is.material.strain_limit != was.material.strain_limit || floor_m(is) != floor_m(was) ||
-         !std::ranges::equal(is.pins, was.pins, same_motion) ||
-         !std::ranges::equal(is.spheres, was.spheres, same_sphere);
+         is.material.strain_limit != was.material.strain_limit || is.floor != was.floor ||
+         is.pins != was.pins || is.spheres != was.spheres || is.capsules != was.capsules ||
+         is.boxes != was.boxes || is.meshes != was.meshes;
 }
 
 SpeedBudget::SpeedBudget(const Model& model, const State& start, bool in_double)

@@ -4,7 +4,7 @@
 
 namespace weft {
 
-/// Mass of the free particles in units of the interior particle's.
+/// Mass of the particles that are free or will be, in units of the interior particle's.
 double free_mass_ratio(const Model& model);
 
 /// Whether what a change of a running scene gives the cloth depends on where the cloth is: colliders that may

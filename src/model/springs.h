@@ -29,7 +29,7 @@ void for_each_join(const Model& model, const SpringKind& kind, Visit&& visit) {
       const std::uint32_t a = grid.index(i, j);
       const std::uint32_t b = grid.index(static_cast<std::uint32_t>(static_cast<int>(i) + kind.di),
                                          j + static_cast<std::uint32_t>(kind.dj));
-      if (model.relative_inverse_mass[a] == 0.0 && model.relative_inverse_mass[b] == 0.0) continue;
+      if (model.loosest_inverse_mass(a) == 0.0 && model.loosest_inverse_mass(b) == 0.0) continue;
       visit(a, b, spring_weight(grid, kind, i, j));
     }
   }

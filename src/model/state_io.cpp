@@ -8,25 +8,35 @@
 #include <charconv>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "core/error.h"
+#include "model/links.h"
 
 namespace weft {
 namespace {
 
 constexpr std::string_view kCsvHeader = "i,j,x,y,z,vx,vy,vz";
 
-/// Calls visit(p, q, r) for both triangles of every cell: A = (i,j) (i,j+1) (i+1,j) and the other half.
+/// Calls visit(p, q, r) for both triangles of every cell: A = (i,j) (i,j+1) (i+1,j) and the other half; what
+/// is torn is left out.
 template <class Visit>
-void for_each_triangle(const Grid& grid, Visit&& visit) {
+void for_each_triangle(const Grid& grid, std::span<const std::uint32_t> links, Visit&& visit) {
   for (std::uint32_t j = 0; j + 1 < grid.ny; ++j) {
     for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
       const std::uint32_t east = grid.index(i + 1, j), south = grid.index(i, j + 1);
-      visit(grid.index(i, j), south, east);
-      visit(east, south, grid.index(i + 1, j + 1));
+      const std::uint32_t own = grid.index(i, j);
+      if (is_whole_a(links, own)) visit(own, south, east);
+      if (is_whole_b(links, grid, own)) visit(east, south, grid.index(i + 1, j + 1));
     }
   }
+}
+
+std::uint32_t triangle_count(const Grid& grid, const State& state) {
+  std::uint32_t count = 0;
+  for_each_triangle(grid, state.broken_links, [&](auto...) { ++count; });
+  return count;
 }
 
 /// Text goes out in pieces, so that a large cloth never stands in memory twice.
@@ -127,7 +137,7 @@ State read_csv(const std::filesystem::path& file, const Grid& grid) {
 
 std::vector<glm::dvec3> vertex_normals(const Grid& grid, const State& state) {
   std::vector<glm::dvec3> normals(grid.count(), glm::dvec3(0.0));
-  for_each_triangle(grid, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+  for_each_triangle(grid, state.broken_links, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
     const glm::dvec3 n =
         glm::cross(state.position[q] - state.position[p], state.position[r] - state.position[p]);
     for (const std::uint32_t corner : {p, q, r}) normals[corner] += n;
@@ -146,13 +156,14 @@ void write_ply(const std::filesystem::path& file, const Model& model, const Stat
   out.print("ply\nformat ascii 1.0\nelement vertex {}\n", grid.count());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out.print("property float {}\n", name);
   out.print("element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-            2 * (grid.nx - 1) * (grid.ny - 1));
+            triangle_count(grid, state));
   for (std::uint32_t p = 0; p < grid.count(); ++p) {
     const glm::dvec3 &x = state.position[p], &n = normals[p];
     out.print("{:.9g} {:.9g} {:.9g} {:.6g} {:.6g} {:.6g}\n", x.x, x.y, x.z, n.x, n.y, n.z);
   }
-  for_each_triangle(
-      grid, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) { out.print("3 {} {} {}\n", p, q, r); });
+  for_each_triangle(grid, state.broken_links, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+    out.print("3 {} {} {}\n", p, q, r);
+  });
   out.commit();
 }
 
@@ -166,7 +177,7 @@ void write_obj(const std::filesystem::path& file, const Model& model, const Stat
     for (std::uint32_t i = 0; i < grid.nx; ++i)
       out.print("vt {:.6g} {:.6g}\n", double(i) / (grid.nx - 1), 1.0 - double(j) / (grid.ny - 1));
   for (const glm::dvec3& n : normals) out.print("vn {:.6g} {:.6g} {:.6g}\n", n.x, n.y, n.z);
-  for_each_triangle(grid, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+  for_each_triangle(grid, state.broken_links, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
     out.print("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", p + 1, q + 1, r + 1);
   });
   out.commit();

@@ -33,7 +33,9 @@ class Gather {
   }
 
  private:
-  double weight_of(std::uint32_t i, std::uint32_t j) const { return model_.inverse_mass(grid_.index(i, j)); }
+  double weight_of(std::uint32_t i, std::uint32_t j) const {
+    return model_.loosest_inverse_mass(grid_.index(i, j)) / model_.interior_mass_kg;
+  }
 
   void add_spring(const SpringKind& kind, int i, int j, int di, int dj, double own, RowSums& sums) const {
     const int oi = i + di, oj = j + dj;
@@ -73,7 +75,7 @@ StepBound step_bound(const Model& model) {
   RowSums largest;
   for (std::uint32_t j = 0; j < model.grid.ny; ++j) {
     for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
-      if (model.relative_inverse_mass[model.grid.index(i, j)] == 0.0) continue;
+      if (model.loosest_inverse_mass(model.grid.index(i, j)) == 0.0) continue;
       const RowSums sums = gather.at(i, j);
       largest.stiffness_pairs = std::max(largest.stiffness_pairs, sums.stiffness_pairs);
       largest.stiffness_own = std::max(largest.stiffness_own, sums.stiffness_own);

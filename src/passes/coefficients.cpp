@@ -114,11 +114,11 @@ SubstepRow<double> substep_row_exact(const Model& model, const KickDrift& row) {
     out.spheres.push_back({end, travel, velocity, sphere.radius_m + model.half_thickness_m, sphere.friction});
   }
   for (const std::uint32_t p : model.moved_pins) {
-    const MotionKeys& keys = scene.pins[p].keys;
-    const glm::dvec3 end = place_at(keys, row.drift_time_s + row.drift_s);
-    const bool drifts = row.drift_s > 0.0;
-    out.pins.push_back(
-        {end, drifts ? (end - place_at(keys, row.drift_time_s)) / row.drift_s : glm::dvec3(0.0)});
+    const PinSection& pin = scene.pins[p];
+    const glm::dvec3 end = pin_offset_at(scene, pin, row.drift_time_s + row.drift_s);
+    const glm::dvec3 travel = end - pin_offset_at(scene, pin, row.drift_time_s);
+    out.pins.push_back({end, row.drift_s > 0.0 ? travel / row.drift_s : glm::dvec3(0.0),
+                        has_released(pin, row.drift_time_s)});
   }
   for (const Solid& solid : solids_of(scene)) out.solids.push_back(solid_row(model, solid, row));
   for (std::size_t mesh = 0; mesh < model.meshes.size(); ++mesh)

@@ -32,11 +32,12 @@ struct SphereRow {
   T friction;
 };
 
-/// One pin with keys during one drift.
+/// One pin that moves or lets go, during one drift.
 template <class T>
 struct PinRow {
   glm::vec<3, T> offset;    ///< at the drift's end [m]
   glm::vec<3, T> velocity;  ///< the mean during the drift [m/s]
+  bool released = false;    ///< it has let go before the drift
 };
 
 /// One capsule or box during one drift.
@@ -159,7 +160,7 @@ SubstepRow<T> substep_row(const Model& model, const KickDrift& kick_drift) {
   for (const SphereRow<double>& s : exact.spheres)
     row.spheres.push_back(
         {s.center, s.travel, s.velocity, static_cast<T>(s.reach), static_cast<T>(s.friction)});
-  for (const PinRow<double>& pin : exact.pins) row.pins.push_back({pin.offset, pin.velocity});
+  for (const PinRow<double>& pin : exact.pins) row.pins.push_back({pin.offset, pin.velocity, pin.released});
   for (const SolidRow<double>& solid : exact.solids) row.solids.push_back(rounded<T>(solid));
   for (const SolidRow<double>& mesh : exact.meshes) row.meshes.push_back(rounded<T>(mesh));
   return row;

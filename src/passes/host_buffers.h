@@ -30,6 +30,7 @@ struct Elements {
   using Params = shared::ParamsOf<T>;
   using Collision = shared::CollisionOf<T>;
   using MovedPin = shared::MovedPinOf<T>;
+  using Tether = shared::TetherOf<T>;
 };
 
 struct BufferRow {
@@ -72,9 +73,9 @@ struct HostWords {
   }
 };
 
-/// Buffers on the host: vectors in T, integers as they are. `params`, `substeps`, `collision` and
-/// `moved_pins` have no place here: mirrors take the Model and the schedule row instead, so that they check
-/// the tables too.
+/// Buffers on the host: vectors in T, integers as they are. `params`, `substeps`, `collision`,
+/// `moved_pins` and `tethers` have no place here: mirrors take the Model and the schedule row instead, so
+/// that they check the tables too.
 template <class T>
 struct HostBuffers : HostWords {
   std::array<std::vector<glm::vec<4, T>>, kBufferCount> vec4;

@@ -72,6 +72,7 @@ const Pass integrate{
     .swaps_state = true,
     .marches = true,
     .compensated = &integrate_compensated,
+    .torn = &integrate_torn,
 };
 
 const Pass integrate_compensated{

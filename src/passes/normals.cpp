@@ -63,6 +63,7 @@ const Pass normals{
     .domain = whole_cloth,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
+    .torn = &normals_torn,
 };
 
 }  // namespace weft

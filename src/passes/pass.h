@@ -62,6 +62,7 @@ struct Pass {
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
   bool marches = false;  ///< one invocation may take several rows: constant 10 of its shader says how many
   const Pass* compensated = nullptr;  ///< the same with compensated summation of positions (f32k)
+  const Pass* torn = nullptr;         ///< what stands in its place where links break
   /// For passes that a solver lists once an item (a colour of springs): where that item runs and how many
   /// springs it evaluates. domain and spring_evaluations are not asked then.
   Range (*item_domain)(const Model&, std::uint32_t item) = nullptr;

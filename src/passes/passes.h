@@ -18,21 +18,28 @@ extern const Pass rk4_last;                     ///< its last, and the step
 extern const Pass xpbd_predict;                 ///< XPBD: where each particle would go by itself
 extern const Pass xpbd_spring;                  ///< XPBD: the springs of one colour
 extern const Pass xpbd_bend;                    ///< XPBD: the bending triples of one colour
+extern const Pass xpbd_tethers;                 ///< XPBD: no farther from a pin than the cloth is long
 extern const Pass xpbd_finish;                  ///< XPBD: velocities and contact
 extern const Pass integrate_compensated;        ///< f32k
 extern const Pass velocity_verlet_compensated;  ///< f32k
 extern const Pass present;                      ///< f64: what is drawn, in float
 extern const Pass normals;                      ///< vertex normals from the adjacent triangles
 
-extern const Pass aerodynamics;   ///< drag and lift by triangle
-extern const Pass solid_contact;  ///< contact with capsules, boxes and a tilted floor
-extern const Pass mesh_contact;   ///< contact with meshes
-extern const Pass pin_place;      ///< what moving pins hold, put where these are
-extern const Pass xpbd_pins;      ///< XPBD: how far they move it
-extern const Pass strain_limit;   ///< springs of one colour that are too long, pulled back
-extern const Pass watch;          ///< divergence: the fastest particle and the energy of each piece
-extern const Pass judge;          ///< whether the state is sound
-extern const Pass keep_sound;     ///< the last state that was
+extern const Pass aerodynamics;                ///< drag and lift by triangle
+extern const Pass solid_contact;               ///< contact with capsules, boxes and a tilted floor
+extern const Pass mesh_contact;                ///< contact with meshes
+extern const Pass pin_release;                 ///< what pins let go of gets its mass back
+extern const Pass pin_place;                   ///< what moving pins hold, put where these are
+extern const Pass xpbd_pins;                   ///< XPBD: how far they move it
+extern const Pass tear;                        ///< links that are too long break
+extern const Pass integrate_torn;              ///< integrate with whole links only
+extern const Pass integrate_torn_compensated;  ///< f32k
+extern const Pass normals_torn;                ///< normals with whole triangles only
+extern const Pass torn_mesh;                   ///< what of a torn cloth is drawn
+extern const Pass strain_limit;                ///< springs of one colour that are too long, pulled back
+extern const Pass watch;       ///< divergence: the fastest particle and the energy of each piece
+extern const Pass judge;       ///< whether the state is sound
+extern const Pass keep_sound;  ///< the last state that was
 
 extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
 extern const Pass cell_count;    ///< particles of each bucket of the grid

@@ -11,6 +11,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   for (const MovedParticle& held : context.model.moved_particles) {
     const PinRow<T>& pin = row.pins[held.pin];
+    if (pin.released) continue;
     const Vec3<T> anchor(held.anchor_m);
     buffers[BufferId::position][held.particle] = glm::vec<4, T>(anchor + pin.offset, T(0));
     buffers[BufferId::velocity][held.particle] = glm::vec<4, T>(pin.velocity, T(0));

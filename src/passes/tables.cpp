@@ -1,6 +1,8 @@
 // Fills the parameter block, the substep table and the state buffers.
 #include "passes/tables.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "model/distance_grid.h"
 #include "passes/coefficients.h"
@@ -79,7 +81,7 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
       table.emplace_back(sphere.velocity, T(0));
     }
     for (const PinRow<T>& pin : row.pins) {
-      table.emplace_back(pin.offset, T(0));
+      table.emplace_back(pin.offset, pin.released ? T(1) : T(0));
       table.emplace_back(pin.velocity, T(0));
     }
     for (const SolidRow<T>& solid : row.solids) append_solid(solid, table);
@@ -106,8 +108,14 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
   position.resize(count);
   velocity.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
-    position[p] = glm::vec<4, T>(glm::vec<3, T>(state.position[p]), T(model.relative_inverse_mass[p]));
+    position[p] = glm::vec<4, T>(glm::vec<3, T>(state.position[p]),
+                                 T(model.inverse_mass_at(static_cast<std::uint32_t>(p), state.time_s)));
     velocity[p] = glm::vec<4, T>(glm::vec<3, T>(state.velocity[p]), T(0));
+  }
+  auto& links = buffers.words_of(BufferId::broken_links);
+  if (!links.empty()) {
+    links.assign(count, 0);
+    std::ranges::copy(state.broken_links, links.begin());
   }
   auto& excess = buffers[BufferId::compensation];
   if (excess.empty()) return;
@@ -121,7 +129,8 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
   }
   // pin_place writes places anew, and nothing sums there.
   for (const MovedParticle& held : model.moved_particles)
-    excess[held.particle] = excess[count + held.particle] = glm::vec<4, T>(T(0));
+    if (position[held.particle].w == T(0))
+      excess[held.particle] = excess[count + held.particle] = glm::vec<4, T>(T(0));
 }
 
 template <class T>
@@ -130,6 +139,7 @@ State store_state(const HostBuffers<T>& buffers, double time_s) {
   const auto& velocity = buffers[BufferId::velocity];
   State state;
   state.time_s = time_s;
+  state.broken_links = buffers.words_of(BufferId::broken_links);
   state.position.reserve(position.size());
   state.velocity.reserve(velocity.size());
   for (const auto& x : position) state.position.emplace_back(x.x, x.y, x.z);

@@ -25,7 +25,7 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
 
 /// Rounds a state into position (w = relative inverse mass) and velocity (w = 0), both resized to the grid.
 /// Where `buffers` has room for the compensation, it takes what rounding adds to positions and
-/// velocities.
+/// velocities; where it has links, they are the state's.
 template <class T>
 void load_state(const Model& model, const State& state, HostBuffers<T>& buffers);
 

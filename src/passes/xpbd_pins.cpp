@@ -10,8 +10,8 @@ template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   for (const MovedParticle& held : context.model.moved_particles)
-    buffers[BufferId::position_next][held.particle] =
-        glm::vec<4, T>(row.drift * row.pins[held.pin].velocity, T(0));
+    if (const PinRow<T>& pin = row.pins[held.pin]; !pin.released)
+      buffers[BufferId::position_next][held.particle] = glm::vec<4, T>(row.drift * pin.velocity, T(0));
 }
 
 }  // namespace

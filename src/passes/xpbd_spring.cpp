@@ -57,7 +57,7 @@ std::size_t row_of(const Model& model, SpringName kind, std::uint32_t i, std::ui
 std::uint64_t item_spring_evaluations(const Model& m, std::uint32_t item) {
   std::uint64_t count = 0;
   for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.ny, [&](const ColouredSpring& spring) {
-    count += m.relative_inverse_mass[spring.a] + m.relative_inverse_mass[spring.b] > 0.0 ? 1 : 0;
+    count += m.loosest_inverse_mass(spring.a) + m.loosest_inverse_mass(spring.b) > 0.0 ? 1 : 0;
   });
   return count;
 }

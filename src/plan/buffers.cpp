@@ -9,6 +9,7 @@
 #include "passes/mesh_grids.h"
 #include "passes/passes.h"
 #include "passes/tables.h"
+#include "passes/tearing.h"
 #include "passes/xpbd.h"
 #include "plan/plan.h"
 
@@ -33,6 +34,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
+    case BufferId::torn_mesh: return torn_mesh_words(model.grid);
     default:  // one element a particle
       return model.grid.count();
   }
@@ -87,6 +89,9 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &xpbd_predict) return kXpbdPredict;
   if (&pass == &xpbd_spring || &pass == &xpbd_bend) return kXpbdSpring;
   if (&pass == &xpbd_finish) return kXpbdFinish;
+  static constexpr std::array kXpbdTethers = {BufferId::params, BufferId::position, BufferId::position_next,
+                                              BufferId::tethers};
+  if (&pass == &xpbd_tethers) return kXpbdTethers;
   static constexpr std::array kPresent = {BufferId::params, BufferId::position, BufferId::normal,
                                           BufferId::draw_position, BufferId::draw_normal};
   if (&pass == &present) return kPresent;
@@ -114,7 +119,21 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
                                               position_next, velocity, distance_grids};
   if (&pass == &mesh_contact) return kMeshContact;
   static constexpr std::array kXpbdPins = {params, substeps, position_next, moved_pins};
+  static constexpr std::array kPinRelease = {params, substeps, position, moved_pins};
+  if (&pass == &pin_release) return kPinRelease;
   if (&pass == &pin_place) return kPinPlace;
+  static constexpr std::array kTear = {params, position, strain_limits, broken_links};
+  static constexpr std::array kIntegrateTorn = {params,   substeps,      position,    position_next,
+                                                velocity, velocity_next, broken_links};
+  static constexpr std::array kNormalsTorn = {params, position, normal, broken_links};
+  static constexpr std::array kTornMesh = {params, broken_links, BufferId::torn_mesh};
+  if (&pass == &tear) return kTear;
+  static constexpr std::array kIntegrateTornCompensated = {
+      params, substeps, position, position_next, velocity, velocity_next, broken_links, compensation};
+  if (&pass == &integrate_torn) return kIntegrateTorn;
+  if (&pass == &integrate_torn_compensated) return kIntegrateTornCompensated;
+  if (&pass == &normals_torn) return kNormalsTorn;
+  if (&pass == &weft::torn_mesh) return kTornMesh;
   if (&pass == &xpbd_pins) return kXpbdPins;
   static constexpr std::array kStrainLimit = {params, substeps, position, velocity, strain_limits};
   if (&pass == &strain_limit) return kStrainLimit;

@@ -81,7 +81,8 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
                                 bool compensated) {
   std::vector<PlanStep> steps;
   const auto add = [&](const SolverStep& step) {
-    const Pass& pass = compensated && step.pass->compensated ? *step.pass->compensated : *step.pass;
+    const Pass& plain = model.scene.tearing && step.pass->torn ? *step.pass->torn : *step.pass;
+    const Pass& pass = compensated && plain.compensated ? *plain.compensated : plain;
     const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
     if (range.empty()) return;
     const std::uint64_t springs = pass.item_spring_evaluations
@@ -96,6 +97,7 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
   for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
     for (const SolverStep& step : solver.steps)
       if (step.block == block) add(step);
+  add({&torn_mesh, Block::frame_end});
   for (const SolverStep& step : kEveryFrame) add(step);
   return steps;
 }
@@ -136,6 +138,12 @@ const Need kNeeds[] = {
      [](const Model&) { return std::string("[[meshes]]"); }, "remove them"},
     {[](const Model& m) { return m.scene.aerodynamics.has_value(); }, &aerodynamics,
      [](const Model&) { return std::string("[aerodynamics]"); }, "use [air]"},
+    {[](const Model& m) { return m.scene.tethers.has_value(); }, &xpbd_tethers,
+     [](const Model& m) { return fmt::format("[tethers] with slack {}", m.scene.tethers->slack); },
+     "remove the section"},
+    {[](const Model& m) { return m.scene.tearing.has_value(); }, &tear,
+     [](const Model& m) { return fmt::format("[tearing] with strain {}", m.scene.tearing->strain); },
+     "remove the section"},
 };
 
 bool lists(const Solver& solver, const Pass* pass) {
@@ -158,6 +166,16 @@ void require_passes(const Model& model, const Solver& solver) {
               model.scene.source, need->place(model), solver.name, able, need->cure);
 }
 
+/// A link that is too long is either pulled back or breaks.
+void require_one_limit(const Model& model) {
+  if (model.scene.tearing && has_strain_limit(model))
+    throw error(
+        Exit::usage,
+        "{}: [tearing] stands beside material.strain_limit, which is {}; it must be one or the other, since "
+        "a link is either pulled back or breaks (remove one)",
+        model.scene.source, model.scene.material.strain_limit);
+}
+
 }  // namespace
 
 bool has_compensated(const Solver& solver) {
@@ -175,6 +193,7 @@ std::string what_solver_lacks(const Model& model, const Solver& solver) {
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
   require_precision(model, solver, precision);
   require_passes(model, solver);
+  require_one_limit(model);
   Plan plan{};
   plan.solver = &solver;
   plan.precision = precision;

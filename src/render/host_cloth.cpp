@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "model/state_io.h"
+#include "render/mesh.h"
 
 namespace weft {
 namespace {
@@ -21,7 +22,8 @@ gpu::Buffer vertex_buffer(gpu::Device& device, const char* name, const Grid& gri
 }  // namespace
 
 HostCloth::HostCloth(gpu::Device& device, const Grid& grid)
-    : grid_(grid),
+    : device_(device),
+      grid_(grid),
       position_(vertex_buffer(device, "host position", grid)),
       normal_(vertex_buffer(device, "host normal", grid)) {}
 
@@ -35,6 +37,13 @@ void HostCloth::upload(const State& state) {
   normals.reserve(state.position.size());
   for (const glm::dvec3& n : vertex_normals(grid_, state)) normals.emplace_back(n, 0.0);
   normal_.write(std::as_bytes(std::span(normals)));
+  if (state.broken_links.empty()) return;
+  const std::vector<std::uint32_t> mesh = torn_indices(grid_, state.broken_links);
+  if (!torn_mesh_)
+    torn_mesh_ =
+        gpu::Buffer(device_, "host torn mesh", mesh.size() * sizeof(std::uint32_t),
+                    VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::device);
+  torn_mesh_.write(std::as_bytes(std::span(mesh)));
 }
 
 }  // namespace weft

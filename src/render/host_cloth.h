@@ -10,11 +10,14 @@ class HostCloth {
  public:
   HostCloth(gpu::Device& device, const Grid& grid);
   void upload(const State& state);
-  DrawBuffers buffers() const { return {position_.handle(), normal_.handle()}; }
+  DrawBuffers buffers() const {
+    return {position_.handle(), normal_.handle(), torn_mesh_ ? torn_mesh_.handle() : VK_NULL_HANDLE};
+  }
 
  private:
+  gpu::Device& device_;
   Grid grid_;
-  gpu::Buffer position_, normal_;
+  gpu::Buffer position_, normal_, torn_mesh_;  ///< the last only once something is torn
 };
 
 }  // namespace weft

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "passes/passes.h"
+#include "passes/tearing.h"
+
 namespace weft {
 namespace {
 
@@ -65,6 +68,16 @@ std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride) {
 
 std::uint32_t stride_for(const Grid& grid, std::uint32_t cells) {
   return std::max(1u, (grid.nx - 1 + cells - 1) / cells);
+}
+
+std::vector<std::uint32_t> torn_indices(const Grid& grid, std::span<const std::uint32_t> broken_links) {
+  HostBuffers<float> host;
+  host.words_of(BufferId::broken_links).assign(broken_links.begin(), broken_links.end());
+  host.words_of(BufferId::torn_mesh).resize(torn_mesh_words(grid));
+  Model model;
+  model.grid = grid;
+  torn_mesh.mirror_f32({model, {}, KickDrift{}, 0}, host);
+  return host.words_of(BufferId::torn_mesh);
 }
 
 std::vector<std::uint32_t> ball_triangles() {

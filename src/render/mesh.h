@@ -1,6 +1,7 @@
 // Index lists of the cloth's grid and of the unit sphere: which particles make a triangle or a line.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/model.h"
@@ -22,6 +23,10 @@ std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride = 
 
 /// The smallest stride with at most that many cells along the width.
 std::uint32_t stride_for(const Grid& grid, std::uint32_t cells);
+
+/// What of a torn cloth is whole: six indices a cell for its triangles, then six a particle for its lines, in
+/// the layout of the buffer torn_mesh; what is torn covers nothing.
+std::vector<std::uint32_t> torn_indices(const Grid& grid, std::span<const std::uint32_t> broken_links);
 
 /// The latitude–longitude sphere of shaders/draw/ball.glsl.
 std::vector<std::uint32_t> ball_triangles();

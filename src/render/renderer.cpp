@@ -121,7 +121,7 @@ void Renderer::write_view(VkCommandBuffer commands, const shared::View& view) {
   after.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_WRITE_BIT;
   after.dstStageMask = kReaders | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT;
   after.dstAccessMask = VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT |
-                        VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT;
+                        VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT;
   barrier(commands, &after, nullptr);
 }
 
@@ -241,13 +241,20 @@ void Renderer::draw_scene(VkCommandBuffer commands, const DrawTarget& target, co
 }
 
 void Renderer::draw_cloth(VkCommandBuffer commands, Kind kind, List list, const DrawBuffers& cloth) {
-  const Indices& order = indices(list);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline(kind).handle());
   const VkBuffer buffers[] = {cloth.position, cloth.normal};
   const VkDeviceSize offsets[] = {0, 0};
   vkCmdBindVertexBuffers(commands, 0, describe(kind).attributes, buffers, offsets);
-  vkCmdBindIndexBuffer(commands, order.buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexed(commands, order.count, 1, 0, 0, 0);
+  if (cloth.torn_mesh != VK_NULL_HANDLE) {  // triangles of all cells, then lines of all particles
+    const std::uint32_t triangles = 6 * (model_->grid.nx - 1) * (model_->grid.ny - 1);
+    const bool lines = list == kLines;
+    vkCmdBindIndexBuffer(commands, cloth.torn_mesh, 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands, lines ? 6 * model_->grid.count() : triangles, 1, lines ? triangles : 0, 0, 0);
+  } else {
+    const Indices& order = indices(list);
+    vkCmdBindIndexBuffer(commands, order.buffer.handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(commands, order.count, 1, 0, 0, 0);
+  }
   ++counts_.draws;
 }
 

@@ -29,8 +29,8 @@ glm::dvec3 pin_place_m(const Model& model, const PinSection& pin, double time_s)
   const ClothSection& cloth = model.scene.cloth;
   const double u = (pin.at.x - 0.5) * model.grid.width_m(), s = (0.5 - pin.at.y) * model.grid.height_m();
   const bool lies = cloth.orientation == Orientation::horizontal;
-  const glm::dvec3 moved_m = pin.keys.empty() ? glm::dvec3(0.0) : place_at(pin.keys, time_s);
-  return cloth.center_m + moved_m + (lies ? glm::dvec3(u, 0.0, -s) : glm::dvec3(u, s, 0.0));
+  return cloth.center_m + pin_offset_at(model.scene, pin, time_s) +
+         (lies ? glm::dvec3(u, 0.0, -s) : glm::dvec3(u, s, 0.0));
 }
 
 std::uint32_t sphere_count(const Model& model) {
@@ -45,9 +45,11 @@ void place_balls(const Model& model, double time_s, shared::View& view) {
     view.balls[k] =
         glm::vec4(sphere_center_at(sphere, time_s), drawn_radius_m(sphere.radius_m, model.grid.spacing_m));
   }
-  for (std::uint32_t k = view.sphere_count; k < view.ball_count; ++k)
-    view.balls[k] = glm::vec4(pin_place_m(model, model.scene.pins[k - view.sphere_count], time_s),
-                              kPinHead * cloth_size_m(model));
+  for (std::uint32_t k = view.sphere_count; k < view.ball_count; ++k) {
+    const PinSection& pin = model.scene.pins[k - view.sphere_count];
+    const double radius_m = has_released(pin, time_s) ? 0.0 : kPinHead * cloth_size_m(model);
+    view.balls[k] = glm::vec4(pin_place_m(model, pin, time_s), radius_m);
+  }
 }
 
 /// Orthographic along the light. Its depth reaches from two radii above the scene down through the floor.

@@ -126,15 +126,34 @@ void check_meshes(const Draft& draft) {
               draft.place_of({"meshes", shared::kMaxMeshes}), draft.scene.meshes.size(), shared::kMaxMeshes);
 }
 
+/// A pin goes with a sphere that there is, or by keys of its own.
+void check_attach(const Draft& draft, std::size_t k) {
+  const PinSection& pin = draft.scene.pins[k];
+  const Place place = draft.place_of({"pins", k}, "attach");
+  if (!attached_sphere(draft.scene, pin))
+    throw error(Exit::usage, "{}: pins.{}.attach is {}; it must be {} (add the sphere, or remove attach)",
+                place, k, in_quotes(pin.attach),
+                draft.scene.spheres.empty()
+                    ? "a sphere, and the scene has none"
+                    : fmt::format("\"spheres.0\" to \"spheres.{}\"", draft.scene.spheres.size() - 1));
+  if (!pin.keys.empty())
+    throw error(Exit::usage,
+                "{}: pins.{}.attach stands beside pins.{}.keys; it must be one or the other (remove one)",
+                place, k, k);
+}
+
 void check_moved_pins(const Draft& draft) {
   std::size_t moved = 0;
   for (std::size_t k = 0; k < draft.scene.pins.size(); ++k) {
-    moved += draft.scene.pins[k].keys.empty() ? 0 : 1;
+    const PinSection& pin = draft.scene.pins[k];
+    if (!pin.attach.empty()) check_attach(draft, k);
+    moved += pin.moves() || pin.release_s ? 1 : 0;
+    const char* key = !pin.keys.empty() ? "keys" : !pin.attach.empty() ? "attach" : "release";
     if (moved > shared::kMaxMovedPins)
       throw error(Exit::usage,
-                  "{}: pins.{}.keys is of the {}th pin that moves; it must be at most the {}th "
+                  "{}: pins.{}.{} is of the {}th pin that moves or lets go; it must be at most the {}th "
                   "(join pins that move alike, or leave some still)",
-                  draft.place_of({"pins", k}, "keys"), k, moved, shared::kMaxMovedPins);
+                  draft.place_of({"pins", k}, key), k, key, moved, shared::kMaxMovedPins);
   }
 }
 

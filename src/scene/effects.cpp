@@ -88,6 +88,14 @@ constexpr std::array kEffectList{
     Effect{.name = "self_collision",
            .needs = "",
            .add = [](Scene& s) { s.self_collision = SelfCollisionSection{0.5 * cell_m(s)}; }},
+    Effect{.name = "tethers",
+           .needs = "pins",
+           .add = [](Scene& s) { s.tethers = TethersSection{10.0}; },
+           .solver = "xpbd"},
+    Effect{.name = "tearing",
+           .needs = "",
+           .add = [](Scene& s) { s.tearing = TearingSection{10.0}; },
+           .not_with = "strain_limit"},
 };
 
 void take_out(Scene& scene, const Effect& effect) {
@@ -105,6 +113,10 @@ const Effect& find_effect(std::string_view name) {
   const auto* effect = std::ranges::find(kEffectList, name, &Effect::name);
   if (effect == kEffectList.end()) throw error(Exit::internal, "\"{}\" is no effect", name);
   return *effect;
+}
+
+bool stand_together(const Effect& a, const Effect& b) {
+  return a.solver.empty() && b.solver.empty() && a.not_with != b.name && b.not_with != a.name;
 }
 
 bool has_effect(const Scene& scene, const Effect& effect) {

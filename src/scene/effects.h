@@ -20,6 +20,8 @@ struct Effect {
   /// Takes it out where it is a key of [material]; nullptr for a section.
   void (*remove)(Scene&) = nullptr;
   bool (*present)(const Scene&) = nullptr;  ///< likewise
+  std::string_view solver = {};             ///< the only one that has it; empty: leapfrog has it
+  std::string_view not_with = {};           ///< an effect that it cannot stand beside
 };
 
 /// Every effect, in the order of the scene file.
@@ -27,6 +29,9 @@ std::span<const Effect> effects();
 
 /// @throws Error(Exit::internal) for a name that is none
 const Effect& find_effect(std::string_view name);
+
+/// Whether a scene can have both and leapfrog can run it.
+bool stand_together(const Effect&, const Effect&);
 
 /// Whether the scene calls for it.
 bool has_effect(const Scene&, const Effect&);

@@ -221,6 +221,20 @@ const Parameter kClothRows[] = {
          .about = "offsets from its place at the cloth's start, in time",
          .example = "[{ time = 0, offset = [0, 0, 0] }, { time = 2, offset = [0.5, 0, 0] }]",
          .default_text = "none"}),
+    row<&Scene::pins, &PinSection::attach>(
+        {.section = "pins",
+         .key = "attach",
+         .kind = word,
+         .about = "a sphere that it goes with, from its place at the start",
+         .example = "\"spheres.0\" is the first",
+         .default_text = "none"}),
+    row<&Scene::pins, &PinSection::release_s>({.section = "pins",
+                                               .key = "release",
+                                               .maximum = 1e6,
+                                               .unit = "s",
+                                               .about = "when it lets go of what it holds",
+                                               .example = "2",
+                                               .default_text = "never"}),
 };
 
 }  // namespace

@@ -278,6 +278,25 @@ const Parameter kColliderRows[] = {
          .unit = "m",
          .about = "full thickness of the cloth in contact",
          .example = "0.004"}),
+
+    row<&Scene::tethers, &TethersSection::slack>(
+        {.section = "tethers",
+         .key = "slack",
+         .maximum = 10,
+         .slider_maximum = 0.5,
+         .about = "by how much of its length on the flat cloth a tether may be longer",
+         .example = "0.02"}),
+
+    row<&Scene::tearing, &TearingSection::strain>({.section = "tearing",
+                                                   .key = "strain",
+                                                   .minimum = 0.001,
+                                                   .maximum = 10,
+                                                   .required = true,
+                                                   .slider_minimum = 0.02,
+                                                   .slider_maximum = 1,
+                                                   .slider_logarithmic = true,
+                                                   .about = "elongation at which a link breaks for good",
+                                                   .example = "0.3"}),
 };
 
 }  // namespace

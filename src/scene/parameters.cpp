@@ -11,9 +11,10 @@
 namespace weft {
 namespace {
 
-constexpr std::string_view kSections[] = {"cloth", "material",     "pins",           "gravity", "air",
-                                          "wind",  "aerodynamics", "floor",          "spheres", "capsules",
-                                          "boxes", "meshes",       "self_collision", "solver",  "expect"};
+constexpr std::string_view kSections[] = {"cloth",  "material",     "pins",           "gravity", "air",
+                                          "wind",   "aerodynamics", "floor",          "spheres", "capsules",
+                                          "boxes",  "meshes",       "self_collision", "tethers", "tearing",
+                                          "solver", "expect"};
 
 /// Applies `act` to the optional or list that stands for a section; nothing for sections that always stand.
 template <class AnyScene, class Act>
@@ -29,6 +30,8 @@ void with_section(AnyScene& scene, std::string_view section, Act&& act) {
   if (section == "wind") return act(scene.wind);
   if (section == "floor") return act(scene.floor);
   if (section == "self_collision") return act(scene.self_collision);
+  if (section == "tethers") return act(scene.tethers);
+  if (section == "tearing") return act(scene.tearing);
   if (section == "expect") return act(scene.expect);
 }
 

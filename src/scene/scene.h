@@ -58,7 +58,12 @@ struct MaterialSection {
 struct PinSection {
   glm::dvec2 at{0.0};  ///< fractions of width and real height; (0,0) is the top-left corner
   double radius_m = 0.05;
-  MotionKeys keys = {};  ///< of its offset; empty: it stays
+  MotionKeys keys = {};                  ///< of its offset; empty: it stays
+  std::string attach = {};               ///< "spheres.0": it goes with that sphere; empty: with none
+  std::optional<double> release_s = {};  ///< when it lets go; absent: never
+
+  bool moves() const { return !keys.empty() || !attach.empty(); }
+  bool operator==(const PinSection&) const = default;
 };
 
 struct GravitySection {
@@ -92,6 +97,7 @@ struct FloorSection {
   glm::dvec3 normal{0.0, 1.0, 0.0};  ///< out of the floor; any length
 
   bool is_level() const { return normal.x == 0.0 && normal.z == 0.0; }
+  bool operator==(const FloorSection&) const = default;
 };
 
 struct SphereSection {
@@ -100,6 +106,7 @@ struct SphereSection {
   glm::dvec3 velocity_m_s{0.0};
   double friction = 0.0;
   MotionKeys keys = {};  ///< of its centre; with keys, center_m is the first and velocity_m_s is not used
+  bool operator==(const SphereSection&) const = default;
 };
 
 /// What capsules, boxes and meshes have in common.
@@ -107,17 +114,20 @@ struct SolidSection {
   glm::dvec3 velocity_m_s{0.0};
   double friction = 0.0;
   MotionKeys keys = {};  ///< of its centre and of what it is turned by on top of its own rotation
+  bool operator==(const SolidSection&) const = default;
 };
 
 struct CapsuleSection : SolidSection {
   glm::dvec3 a_m{0.0}, b_m{0.0};  ///< ends of its axis; required
   double radius_m = 0.0;          ///< required
+  bool operator==(const CapsuleSection&) const = default;
 };
 
 struct BoxSection : SolidSection {
   glm::dvec3 center_m{0.0};      ///< required, or keys
   glm::dvec3 size_m{0.0};        ///< full edges along its own axes; required
   glm::dvec3 rotation_deg{0.0};  ///< about x, then y, then z
+  bool operator==(const BoxSection&) const = default;
 };
 
 struct MeshSection : SolidSection {
@@ -126,6 +136,16 @@ struct MeshSection : SolidSection {
   glm::dvec3 rotation_deg{0.0};   ///< about x, then y, then z
   double scale = 1.0;             ///< metres of one unit of the file
   std::uint32_t resolution = 64;  ///< cells of the distance grid along the longest side
+  bool operator==(const MeshSection&) const = default;
+};
+
+/// Keeps every particle within reach of the pinned one that is nearest on the flat cloth; XPBD only.
+struct TethersSection {
+  double slack = 0.0;  ///< that a tether may be longer than the way on the flat cloth, relative
+};
+
+struct TearingSection {
+  double strain = 0.0;  ///< elongation at which a link breaks; required in its section
 };
 
 struct SelfCollisionSection {
@@ -160,8 +180,13 @@ struct Scene {
   std::vector<BoxSection> boxes;
   std::vector<MeshSection> meshes;
   std::optional<SelfCollisionSection> self_collision;
+  std::optional<TethersSection> tethers;
+  std::optional<TearingSection> tearing;
   SolverSection solver;
   std::optional<ExpectSection> expect;
 };
+
+/// The sphere that a pin goes with, as an index in Scene::spheres; nothing when there is none of that name.
+std::optional<std::size_t> attached_sphere(const Scene& scene, const PinSection& pin);
 
 }  // namespace weft

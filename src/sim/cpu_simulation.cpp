@@ -122,6 +122,7 @@ std::optional<State> CpuSimulation<T>::last_good() {
   HostBuffers<T> kept;
   kept[BufferId::position] = buffers_[BufferId::kept_position];
   kept[BufferId::velocity] = buffers_[BufferId::kept_velocity];
+  kept.words_of(BufferId::broken_links) = buffers_.words_of(BufferId::broken_links);  // torn since is torn
   return store_state(kept, *log_.sound_time_s());
 }
 

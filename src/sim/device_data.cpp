@@ -12,6 +12,7 @@
 #include "passes/strain_limit.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
+#include "passes/xpbd_tethers.h"
 
 namespace weft {
 namespace {
@@ -24,16 +25,25 @@ Bytes bytes_of(std::span<const T> values) {
 
 std::vector<BufferId> state_buffers(const GpuBuffers& buffers) {
   std::vector<BufferId> ids{BufferId::position, BufferId::velocity};
-  if (buffers.has(BufferId::compensation)) ids.push_back(BufferId::compensation);
+  for (const BufferId id : {BufferId::compensation, BufferId::broken_links})
+    if (buffers.has(id)) ids.push_back(id);
   return ids;
 }
 
 template <class T>
 HostBuffers<T> sized_for_state(const GpuBuffers& buffers, const Model& model, const Plan& plan) {
   HostBuffers<T> host;
-  for (const BufferId id : state_buffers(buffers))
-    host[id].resize(element_count(id, model, plan.row_count()));
+  for (const BufferId id : state_buffers(buffers)) {
+    const std::uint64_t count = element_count(id, model, plan.row_count());
+    holds_words(id) ? host.words_of(id).resize(count) : host[id].resize(count);
+  }
   return host;
+}
+
+template <class T>
+std::span<std::byte> bytes_in(HostBuffers<T>& host, BufferId id) {
+  return holds_words(id) ? std::as_writable_bytes(std::span(host.words_of(id)))
+                         : std::as_writable_bytes(std::span(host[id]));
 }
 
 }  // namespace
@@ -52,6 +62,10 @@ Bytes block_bytes(BufferId id, const Model& model, const Plan& plan, const Pertu
     if (id == BufferId::moved_pins) {
       const auto pins = make_moved_pins<T>(model);
       return bytes_of(std::span<const shared::MovedPinOf<T>>(pins));
+    }
+    if (id == BufferId::tethers) {
+      const auto tethers = make_tethers<T>(model);
+      return bytes_of(std::span<const shared::TetherOf<T>>(tethers));
     }
     if (id == BufferId::strain_limits) {
       const auto limits = strain_limit_rows<T>(model);
@@ -82,8 +96,9 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
 
 void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
                   const Perturbation& perturbation) {
-  for (const BufferId id : {BufferId::params, BufferId::constraints, BufferId::collision,
-                            BufferId::moved_pins, BufferId::strain_limits, BufferId::distance_grids}) {
+  for (const BufferId id :
+       {BufferId::params, BufferId::constraints, BufferId::collision, BufferId::moved_pins,
+        BufferId::strain_limits, BufferId::distance_grids, BufferId::tethers}) {
     if (!buffers.has(id)) continue;
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);
@@ -96,7 +111,7 @@ void write_state(GpuBuffers& buffers, Parity parity, const Model& model, const P
     auto host = sized_for_state<T>(buffers, model, plan);
     load_state(model, state, host);
     for (const BufferId id : state_buffers(buffers))
-      buffers.at(at_parity(id, parity)).write(std::as_bytes(std::span(host[id])));
+      buffers.at(at_parity(id, parity)).write(bytes_in(host, id));
   });
 }
 
@@ -105,7 +120,7 @@ State read_state(const GpuBuffers& buffers, Parity parity, const Model& model, c
   return in_precision(plan, [&]<class T>(T) {
     auto host = sized_for_state<T>(buffers, model, plan);
     for (const BufferId id : state_buffers(buffers))
-      buffers.at(at_parity(id, parity)).read(std::as_writable_bytes(std::span(host[id])));
+      buffers.at(at_parity(id, parity)).read(bytes_in(host, id));
     return store_state(host, time_s);
   });
 }
@@ -126,6 +141,10 @@ State read_kept(const GpuBuffers& buffers, const Model& model, const Plan& plan,
                                    std::pair{BufferId::kept_velocity, BufferId::velocity}}) {
       kept[to].resize(model.grid.count());
       buffers.at(from).read(std::as_writable_bytes(std::span(kept[to])));
+    }
+    if (buffers.has(BufferId::broken_links)) {  // torn since is torn
+      kept.words_of(BufferId::broken_links).resize(model.grid.count());
+      buffers.at(BufferId::broken_links).read(bytes_in(kept, BufferId::broken_links));
     }
     return store_state(kept, time_s);
   });

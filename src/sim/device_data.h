@@ -19,7 +19,7 @@ auto in_precision(const Plan& plan, Work&& work) {
 }
 
 /// A block that follows from the model alone.
-/// @param id                  params, constraints, collision, moved_pins or strain_limits
+/// @param id                  params, constraints, collision, moved_pins, strain_limits or tethers
 /// @param energy_share_s2_m2  of the parameters (model/speed_budget.h)
 Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = {},
                   double energy_share_s2_m2 = 0.0);

@@ -18,7 +18,7 @@ class DrawPairs {
   native::SurfaceTarget target();
   /// The target is written: from now on it is what is drawn.
   void show();
-  DrawBuffers shown() const { return {pairs_[shown_].position.handle(), pairs_[shown_].normal.handle()}; }
+  DrawBuffers shown() const { return {pairs_[shown_].position.handle(), pairs_[shown_].normal.handle(), {}}; }
   std::uint64_t bytes() const;
 
  private:

@@ -14,6 +14,8 @@ namespace weft {
 struct DrawBuffers {
   VkBuffer position = VK_NULL_HANDLE;  ///< vec4, stride 16
   VkBuffer normal = VK_NULL_HANDLE;    ///< vec4, stride 16
+  /// Indices of a torn cloth's triangles, then lines; null: all are whole.
+  VkBuffer torn_mesh = VK_NULL_HANDLE;
 };
 
 /// A pinned particle that something outside the plan moves: a hand.

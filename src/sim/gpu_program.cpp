@@ -47,6 +47,7 @@ VkBufferUsageFlags usage_of(BufferId id) {
     case BufferId::draw_normal:
     case BufferId::normal: return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     case BufferId::band_scratch: return kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+    case BufferId::torn_mesh: return kStorage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     case BufferId::collision_state: return kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     default: return kStorage;
   }

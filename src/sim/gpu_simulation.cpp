@@ -83,10 +83,13 @@ class VulkanSimulation final : public GpuSimulation {
   std::uint32_t submit_count() const override { return submits_; }
   std::vector<double> step_ms() const override { return step_ms_; }
   DrawBuffers draw_buffers() const override {
+    const auto handle = [&](BufferId id) {
+      return buffers_.has(id) ? buffers_.at(id).handle() : VK_NULL_HANDLE;
+    };
     if (buffers_.has(BufferId::draw_position))
-      return {buffers_.at(BufferId::draw_position).handle(), buffers_.at(BufferId::draw_normal).handle()};
-    return {buffers_.at(at_parity(BufferId::position, parity_)).handle(),
-            buffers_.has(BufferId::normal) ? buffers_.at(BufferId::normal).handle() : VK_NULL_HANDLE};
+      return {handle(BufferId::draw_position), handle(BufferId::draw_normal), handle(BufferId::torn_mesh)};
+    return {handle(at_parity(BufferId::position, parity_)), handle(BufferId::normal),
+            handle(BufferId::torn_mesh)};
   }
   void wait() override {
     for (Slot& slot : slots_) finish(slot);

@@ -112,7 +112,9 @@ std::string describe(const Kernel& k) {
 std::span<const std::string_view> kernel_names() { return kNames; }
 
 Kernel direct_kernel(const gpu::Device& device, const Plan& plan) {
-  return {.kind = KernelKind::direct, .rows = march_rows(device, plan.steps.at(0).range.y)};
+  auto marching = std::ranges::find_if(plan.steps, [](const PlanStep& s) { return s.pass->marches; });
+  if (marching == plan.steps.end()) marching = plan.steps.begin();
+  return {.kind = KernelKind::direct, .rows = march_rows(device, marching->range.y)};
 }
 
 std::vector<KernelCandidate> kernel_candidates(const gpu::Device& device, const Plan& plan) {

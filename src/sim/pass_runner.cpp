@@ -38,7 +38,7 @@ void fill_poison(BufferId id, std::span<std::byte> bytes) {
 bool is_block(BufferId id) {
   using enum BufferId;
   return id == params || id == constraints || id == collision || id == moved_pins || id == strain_limits ||
-         id == distance_grids;
+         id == distance_grids || id == tethers;
 }
 
 /// Of a device's buffer of type E.

@@ -9,8 +9,8 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{SolverStep{&euler_step, Block::substep}, SolverStep{&pin_place, Block::substep},
-                            SolverStep{&normals, Block::frame_end}};
+constexpr std::array kSteps{SolverStep{&pin_release, Block::substep}, SolverStep{&euler_step, Block::substep},
+                            SolverStep{&pin_place, Block::substep}, SolverStep{&normals, Block::frame_end}};
 
 }  // namespace
 

@@ -10,11 +10,11 @@ namespace weft {
 namespace {
 
 constexpr std::array kSteps{
-    SolverStep{&rk4_first, Block::substep, 0},  SolverStep{&pin_place, Block::substep, 0},
-    SolverStep{&rk4_middle, Block::substep, 1}, SolverStep{&pin_place, Block::substep, 1},
-    SolverStep{&rk4_middle, Block::substep, 2}, SolverStep{&pin_place, Block::substep, 2},
-    SolverStep{&rk4_last, Block::substep, 3},   SolverStep{&pin_place, Block::substep, 3},
-    SolverStep{&normals, Block::frame_end}};
+    SolverStep{&pin_release, Block::substep},  SolverStep{&rk4_first, Block::substep, 0},
+    SolverStep{&pin_place, Block::substep, 0}, SolverStep{&rk4_middle, Block::substep, 1},
+    SolverStep{&pin_place, Block::substep, 1}, SolverStep{&rk4_middle, Block::substep, 2},
+    SolverStep{&pin_place, Block::substep, 2}, SolverStep{&rk4_last, Block::substep, 3},
+    SolverStep{&pin_place, Block::substep, 3}, SolverStep{&normals, Block::frame_end}};
 
 constexpr std::array kStages{StageRow{.weight = 1.0 / 6, .reach = 0.5, .time = 0.0},
                              StageRow{.weight = 1.0 / 3, .reach = 0.5, .time = 0.5},

@@ -8,8 +8,9 @@ namespace weft {
 namespace {
 
 constexpr auto kSteps = joined_steps(
-    std::array{SolverStep{&aerodynamics, Block::substep}, SolverStep{&integrate, Block::substep}},
-    kAfterDrift, std::array{SolverStep{&normals, Block::frame_end}});
+    std::array{SolverStep{&pin_release, Block::substep}, SolverStep{&aerodynamics, Block::substep},
+               SolverStep{&integrate, Block::substep}},
+    kAfterDrift, std::array{SolverStep{&tear, Block::substep}, SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

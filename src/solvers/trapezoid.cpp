@@ -10,9 +10,9 @@ namespace weft {
 namespace {
 
 constexpr std::array kSteps{
-    SolverStep{&trapezoid_predict, Block::substep, 0}, SolverStep{&pin_place, Block::substep, 0},
-    SolverStep{&trapezoid_correct, Block::substep, 1}, SolverStep{&pin_place, Block::substep, 1},
-    SolverStep{&normals, Block::frame_end}};
+    SolverStep{&pin_release, Block::substep},  SolverStep{&trapezoid_predict, Block::substep, 0},
+    SolverStep{&pin_place, Block::substep, 0}, SolverStep{&trapezoid_correct, Block::substep, 1},
+    SolverStep{&pin_place, Block::substep, 1}, SolverStep{&normals, Block::frame_end}};
 
 /// The first slope reaches over the whole step; the second row's weight serves the mean of both.
 constexpr std::array kStages{StageRow{.weight = 1.0, .reach = 1.0, .time = 0.0},

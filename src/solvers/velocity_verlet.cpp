@@ -9,7 +9,8 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{SolverStep{&velocity_verlet_step, Block::substep},
+constexpr std::array kSteps{SolverStep{&pin_release, Block::substep},
+                            SolverStep{&velocity_verlet_step, Block::substep},
                             SolverStep{&pin_place, Block::substep},
                             SolverStep{&velocity_verlet_step, Block::frame_end},  // completes the last step
                             SolverStep{&normals, Block::frame_end}};

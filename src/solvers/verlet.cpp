@@ -9,7 +9,8 @@
 namespace weft {
 namespace {
 
-constexpr std::array kSteps{SolverStep{&verlet_step, Block::substep}, SolverStep{&pin_place, Block::substep},
+constexpr std::array kSteps{SolverStep{&pin_release, Block::substep},
+                            SolverStep{&verlet_step, Block::substep}, SolverStep{&pin_place, Block::substep},
                             SolverStep{&integrate, Block::frame_end},  // half a kick: x and v at one time
                             SolverStep{&normals, Block::frame_end}};
 

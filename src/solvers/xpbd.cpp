@@ -25,10 +25,10 @@ constexpr auto kSweep = [] {
 }();
 
 constexpr auto kSteps = joined_steps(
-    std::array{SolverStep{&aerodynamics, Block::substep}, SolverStep{&xpbd_predict, Block::substep},
-               SolverStep{&xpbd_pins, Block::substep}},
-    kSweep, std::array{SolverStep{&xpbd_finish, Block::substep}}, kAfterDrift,
-    std::array{SolverStep{&normals, Block::frame_end}});
+    std::array{SolverStep{&pin_release, Block::substep}, SolverStep{&aerodynamics, Block::substep},
+               SolverStep{&xpbd_predict, Block::substep}, SolverStep{&xpbd_pins, Block::substep}},
+    kSweep, std::array{SolverStep{&xpbd_tethers, Block::substep}, SolverStep{&xpbd_finish, Block::substep}},
+    kAfterDrift, std::array{SolverStep{&normals, Block::frame_end}});
 
 }  // namespace
 

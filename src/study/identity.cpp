@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 #include "core/cache.h"
@@ -40,6 +41,7 @@ bool moves_the_cloth(const Parameter& row) {
 std::optional<ParameterValue> absent_value(const Scene& scene, const Parameter& row) {
   if (row.kind == ParameterKind::keys) return MotionKeys{};
   if (row.section == "material" && row.key == "strain_limit") return 0.0;
+  if (row.key == "attach") return std::string();
   if (row.key.starts_with("membrane_")) return scene.material.membrane_n_m;
   if (row.key.starts_with("bend_")) return scene.material.bend_n_m;
   return std::nullopt;
@@ -52,9 +54,10 @@ std::string canonical_scene(const Scene& scene) {
   for (const Parameter& row : parameters()) {
     if (!moves_the_cloth(row) || !has_section(scene, row.section)) continue;
     for (std::size_t item = 0; item < item_count(scene, row.section); ++item) {
-      if (row.get(scene, item) == absent_value(scene, row)) continue;
-      text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key,
-                          std::visit(ExactText{}, row.get(scene, item)));
+      const ParameterValue value = row.get(scene, item);
+      const double* number = std::get_if<double>(&value);
+      if (value == absent_value(scene, row) || (number != nullptr && std::isnan(*number))) continue;
+      text += fmt::format("{}.{}.{}={}\n", row.section, item, row.key, std::visit(ExactText{}, value));
     }
   }
   return text;

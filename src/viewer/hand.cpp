@@ -18,7 +18,7 @@ void Hand::grab(const Model& before, const Model& with_pin, const State& state, 
   center_ = pick.particle;
   grip_ = target_ = pick.point;
   for (std::uint32_t p = 0; p < with_pin.grid.count(); ++p)
-    if (with_pin.relative_inverse_mass[p] == 0.0 && before.relative_inverse_mass[p] != 0.0)
+    if (with_pin.inverse_mass_at(p, state.time_s) == 0.0 && before.inverse_mass_at(p, state.time_s) != 0.0)
       held_.push_back({p, state.position[p] - grip_});
 }
 

@@ -153,6 +153,7 @@ void add_visible_section(Scene& scene, std::string_view section) {
   if (section == "air" && !was_there) scene.air->drag_kg_m2_s = 0.1;
   if (section == "wind" && !was_there) scene.wind->velocity_m_s = {0.0, 0.0, 3.0};
   if (section == "self_collision" && !was_there) scene.self_collision->thickness_m = 0.5 * cell_m;
+  if (section == "tearing" && !was_there) scene.tearing->strain = 0.3;
   if (section == "spheres") {
     scene.spheres.back().center_m = scene.cloth.center_m - glm::dvec3(0.0, 0.8 * scene.cloth.height_m, 0.0);
     scene.spheres.back().radius_m = 0.25 * scene.cloth.width_m;

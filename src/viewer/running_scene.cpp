@@ -228,7 +228,7 @@ void RunningScene::toggle_pin(std::uint32_t particle, const glm::dvec3& place_m)
                       static_cast<double>(particle / grid.nx) / (grid.ny - 1)};
   Scene next = scene_;
   const std::vector<HandPin> before = hand_pins_;
-  if (model().relative_inverse_mass[particle] > 0.0) {
+  if (model().inverse_mass_at(particle, simulation_->time_s()) > 0.0) {
     hand_pins_.push_back({at, place_m});
   } else {
     const auto reaches = [&](const glm::dvec2& pin, double radius_m) {

@@ -29,7 +29,7 @@ TEST(IdleEffects, ChangeNoBit) {
   const Scene scene = swinging();
   const std::uint64_t expected = hash_after_frames(scene);
   for (const char* effect :
-       {"strain_limit", "floor", "spheres", "capsules", "boxes", "meshes", "self_collision"})
+       {"strain_limit", "floor", "spheres", "capsules", "boxes", "meshes", "self_collision", "tearing"})
     EXPECT_EQ(hash_after_frames(with_effect(scene, effect)), expected) << effect;
   EXPECT_EQ(hash_after_frames(swinging({"aerodynamics={drag=0, lift=0}"})), expected);
 }

@@ -34,7 +34,10 @@ std::string plan_text(const Scene& scene) {
 std::set<std::string> words_of(const Plan& plan) {
   std::set<std::string> words;
   for (const PlanStep& step : plan.steps) {
-    words.insert("pass " + std::string(step.pass->name));
+    // Where links break, a pass with that in its name stands for the one without, with the same constants.
+    std::string name(step.pass->name);
+    if (name.ends_with("_torn")) name.resize(name.size() - std::string_view("_torn").size());
+    words.insert("pass " + name);
     for (const Constant& constant : step.constants)
       if (constant.value != 0) words.insert("constant " + std::string(constant.name));
   }
@@ -55,6 +58,7 @@ TEST_P(EffectPairs, BringWhatEachBringsAlone) {
   const Scene first = with_effect(base, GetParam());
   const auto own = words_of(plan_of(first));
   for (const Effect& other : effects()) {
+    if (!stand_together(find_effect(GetParam()), other)) continue;
     const Scene second = with_effect(base, other.name), both = with_effect(first, other.name);
     EXPECT_EQ(words_of(plan_of(both)), united(own, words_of(plan_of(second))))
         << GetParam() << " + " << other.name;
@@ -68,6 +72,7 @@ TEST_P(EffectPairs, BringWhatEachBringsAlone) {
 TEST_P(EffectPairs, LeaveNothingBehind) {
   const Effect& effect = find_effect(GetParam());
   for (const Effect& other : effects()) {
+    if (!stand_together(effect, other)) continue;
     const Scene before = with_effect(base_scene(), other.name);
     if (has_effect(before, effect)) continue;
     Scene lost = without_effect(with_effect(before, effect.name), effect.name);
@@ -85,7 +90,8 @@ TEST_P(EffectPairs, AreSeenInThePlan) {
 
 std::vector<std::string> names_of_effects() {
   std::vector<std::string> names;
-  for (const Effect& effect : effects()) names.emplace_back(effect.name);
+  for (const Effect& effect : effects())
+    if (effect.solver.empty()) names.emplace_back(effect.name);  // tethers: tests/physics/tethers_test.cpp
   return names;
 }
 

@@ -73,5 +73,17 @@ TEST(MotionKeys, HaveAHighestSpeed) {
   expect_refused(to("10.01"), {"keys.1.time is 0.01", "1001 m/s", "at most 1000 m/s", "more time"});
 }
 
+TEST(AttachedPins, NameASphereThatThereIs) {
+  const std::string sphere =
+      "[cloth]\n[[spheres]]\ncenter = [0, 5, 0]\nradius = 0.1\n[[pins]]\nat = [0, 0]\n";
+  EXPECT_EQ(refusal(sphere + "attach = \"spheres.0\"\nrelease = 2\n"), "accepted");
+  expect_refused(sphere + "attach = \"spheres.1\"\n", {"scene.toml:7", "pins.0.attach", "\"spheres.0\""});
+  expect_refused(sphere + "attach = \"sphere\"\n", {"pins.0.attach", "must be"});
+  expect_refused("[cloth]\n[[pins]]\nat = [0, 0]\nattach = \"spheres.0\"\n", {"the scene has none"});
+  expect_refused(sphere + "attach = \"spheres.0\"\nkeys = [{ time = 0, offset = [0, 0, 0] }]\n",
+                 {"beside pins.0.keys"});
+  expect_refused(sphere + "release = -1\n", {"pins.0.release is -1"});
+}
+
 }  // namespace
 }  // namespace weft

@@ -28,6 +28,9 @@ period = 2
 [[spheres]]
 center = [0, 0, 0]
 radius = 1
+[tethers]
+[tearing]
+strain = 0.3
 [[capsules]]
 a = [0, 0, 0]
 b = [1, 0, 0]

@@ -227,5 +227,22 @@ TEST(Reader, PresetGivesWayToKeysBesideIt) {
                  {"must be a name in assets/materials"});
 }
 
+// The preset speaks of warp and weft; what the scene says of both overrides it, what it says of one stays.
+TEST(Reader, MembraneOverridesThePresetsWarpAndWeft) {
+  const MaterialSection denim = read("[cloth]\n[material]\npreset = \"denim\"\n").scene.material;
+  EXPECT_GT(denim.membrane_warp(), 5.0 * denim.membrane_weft());
+  const auto with = [](const std::string& keys) {
+    return read("[cloth]\n[material]\n" + keys + "preset = \"denim\"\n").scene.material;
+  };
+  EXPECT_EQ(with("membrane = 500\n").membrane_warp(), 500.0);
+  EXPECT_EQ(with("membrane = 500\n").membrane_weft(), 500.0);
+  EXPECT_EQ(with("membrane = 500\nmembrane_warp = 700\n").membrane_warp(), 700.0);
+  EXPECT_EQ(with("membrane_warp = 700\n").membrane_weft(), denim.membrane_weft());
+  EXPECT_EQ(with("bend = 1e-6\n").bend_weft(), 1e-6);
+  EXPECT_EQ(
+      read("[cloth]\n", {"material.preset=denim", "material.membrane=300"}).scene.material.membrane_warp(),
+      300.0);
+}
+
 }  // namespace
 }  // namespace weft

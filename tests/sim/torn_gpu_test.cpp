@@ -1,0 +1,80 @@
+// Tethers, tearing and pins that let go on the device: the mirrors' bits. long_torn_gpu_test.cpp has every
+// solver and precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gpu_fixture.h"
+#include "scenes.h"
+#include "sim/gpu_simulation.h"
+#include "sim/validate.h"
+
+namespace weft::test {
+namespace {
+
+class TornGpuTest : public GpuTest {
+ protected:
+  /// Validates and returns how many rows are of a pass.
+  std::size_t rows_of(const Model& model, const char* solver, std::string_view pass) {
+    const ValidationReport report =
+        validate(device(), model, find_solver(solver), {.lockstep_substeps = 20, .lockstep_frames = 1});
+    std::size_t count = 0;
+    for (const ValidationRow& row : report.rows) {
+      count += row.check == pass ? 1 : 0;
+      EXPECT_TRUE(row.ok) << solver << ": " << row.check << ", " << row.state << ", " << row.buffer << ": "
+                          << row.verdict << ", " << row.max_ulp << " ulp";
+    }
+    return count;
+  }
+};
+
+TEST_F(TornGpuTest, pins_that_let_go_equal_their_mirrors) {
+  const Model model = full_model(R"(
+[[spheres]]
+center = [-0.2, 0.9, 0.5]
+radius = 0.15
+velocity = [0.3, 0.1, 0.0]
+[[pins]]
+at = [1.0, 0.0]
+radius = 0.1
+attach = "spheres.0"
+release = 0.004
+[[pins]]
+at = [0.5, 1.0]
+radius = 0.1
+release = 0.0
+)");
+  EXPECT_GT(rows_of(model, "leapfrog", "pin_release"), 0u);
+}
+
+TEST_F(TornGpuTest, tethers_equal_their_mirror) {
+  Scene scene = full_model("").scene;
+  scene.tethers = TethersSection{0.0};
+  EXPECT_GT(rows_of(build_model(scene), "xpbd", "xpbd_tethers"), 0u);
+}
+
+TEST_F(TornGpuTest, tearing_equals_its_mirrors_and_is_drawn) {
+  Scene scene = full_model("").scene;
+  scene.tearing = TearingSection{0.04};
+  const Model model = build_model(scene);
+  EXPECT_GT(rows_of(model, "leapfrog", "integrate_torn"), 0u);
+  const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
+  EXPECT_NE(simulation->draw_buffers().torn_mesh, VK_NULL_HANDLE);
+  EXPECT_EQ(simulation->bytes_allocated(), simulation->bytes_expected());
+}
+
+// A state with its tears goes to the device and back.
+TEST_F(TornGpuTest, links_go_with_the_state) {
+  Scene scene = full_model("").scene;
+  scene.tearing = TearingSection{0.5};
+  const Model model = build_model(scene);
+  const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
+  State state = start_state(model);
+  state.broken_links.assign(model.grid.count(), 0);
+  state.broken_links[7] = 5u;
+  simulation->write(state);
+  EXPECT_EQ(simulation->read().broken_links, state.broken_links);
+}
+
+}  // namespace
+}  // namespace weft::test
