@@ -1,0 +1,89 @@
+// Minutes on a software device: anisotropy, pins on spheres and that let go, tethers and tearing on the
+// device: the mirrors' bits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gpu_fixture.h"
+#include "scenes.h"
+#include "sim/expect.h"
+#include "sim/gpu_simulation.h"
+#include "sim/validate.h"
+
+namespace weft::test {
+namespace {
+
+class LongTornGpu : public GpuTest {
+ protected:
+  /// Validates and returns how many rows are of a pass.
+  std::size_t rows_of(const Model& model, const char* solver, std::string_view pass) {
+    const ValidationReport report =
+        validate(device(), model, find_solver(solver), {.lockstep_substeps = 20, .lockstep_frames = 1});
+    std::size_t count = 0;
+    for (const ValidationRow& row : report.rows) {
+      count += row.check == pass ? 1 : 0;
+      EXPECT_TRUE(row.ok) << solver << ": " << row.check << ", " << row.state << ", " << row.buffer << ": "
+                          << row.verdict << ", " << row.max_ulp << " ulp";
+    }
+    return count;
+  }
+};
+
+TEST_F(LongTornGpu, warp_and_weft_equal_their_mirrors) {
+  for (const char* solver : {"leapfrog", "xpbd"}) {
+    Scene scene = full_model("").scene;
+    scene.material.membrane_warp_n_m = 3.0 * scene.material.membrane_n_m;
+    scene.material.bend_weft_n_m = 2.0 * scene.material.bend_n_m + 1e-5;
+    rows_of(build_model(scene), solver, "");
+  }
+}
+
+TEST_F(LongTornGpu, pins_that_let_go_equal_their_mirrors) {
+  for (const Solver* solver : solvers()) {
+    const bool fails = solver->name == "euler";
+    const Model model = full_model(std::string(R"(
+[[spheres]]
+center = [-0.2, 0.9, 0.5]
+radius = 0.15
+velocity = [0.3, 0.1, 0.0]
+[[pins]]
+at = [1.0, 0.0]
+radius = 0.1
+attach = "spheres.0"
+release = 0.004
+[[pins]]
+at = [0.5, 1.0]
+radius = 0.1
+release = 0.0
+[solver]
+)") + (fails ? "substeps = 2000\n" : ""));
+    EXPECT_GT(rows_of(model, solver->name.data(), "pin_release"), 0u) << solver->name;
+  }
+}
+
+TEST_F(LongTornGpu, tearing_equals_its_mirrors_and_is_drawn) {
+  for (const char* precision : {"f32", "f32k", "f64"}) {
+    if (std::string(precision) == "f64" && !device().info().float64) continue;
+    Scene scene = full_model(fmt::format("[solver]\nprecision = \"{}\"\n", precision)).scene;
+    scene.tearing = TearingSection{0.04};
+    const Model model = build_model(scene);
+    const bool compensated = std::string(precision) == "f32k";
+    EXPECT_GT(rows_of(model, "leapfrog", compensated ? "integrate_torn_compensated" : "integrate_torn"), 0u);
+    const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
+    EXPECT_NE(simulation->draw_buffers().torn_mesh, VK_NULL_HANDLE);
+    EXPECT_EQ(simulation->bytes_allocated(), simulation->bytes_expected());
+  }
+}
+
+/// The examples hold what they expect of themselves.
+TEST_F(LongTornGpu, examples_hold_what_they_expect) {
+  for (const char* example : {"drape", "released", "tearing", "tethers"}) {
+    const Model model = build_model(load_scene(find_scene(example)).scene);
+    const auto simulation = GpuSimulation::create(device(), model, find_solver(model.scene.solver.name));
+    const std::vector<Verdict> verdicts = run_expectations(*simulation, 5.0);
+    EXPECT_TRUE(all_hold(verdicts)) << example << "\n" << describe(verdicts);
+  }
+}
+
+}  // namespace
+}  // namespace weft::test
