@@ -44,7 +44,7 @@ class JudgedTest : public test::GpuTest {
     }
     const bool forceless = c.closed && c.scene == "free" && c.set.empty();
     if (forceless) {
-      EXPECT_LE(outcome.momentum_drift, 1e-4);
+      EXPECT_LE(outcome.momentum_drift, 1e-5);
     }
     EXPECT_TRUE(std::isfinite(outcome.max_stretch));
   }
@@ -61,7 +61,7 @@ class JudgedTest : public test::GpuTest {
   }
 
   /// Of what was stored or could fall. Leapfrog conserves a neighbour of the energy, not the energy itself.
-  static constexpr double kEnergyTolerance = 0.1;
+  static constexpr double kEnergyTolerance = 0.01;
 };
 
 }  // namespace weft::hard
