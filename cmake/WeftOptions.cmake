@@ -39,7 +39,7 @@ if(WEFT_TIDY)
   set(CMAKE_CXX_CLANG_TIDY ${CLANG_TIDY} --quiet --extra-arg=-Wno-unknown-warning-option)
 endif()
 
-# For code that is not hot (the command line, the tests): compiles in two thirds of the time.
+# For code that is not hot (reading, planning, recording, drawing, the tests): compiles in two thirds of the time.
 set(WEFT_COLD $<$<CONFIG:Release>:-O1>)
 
 # Two thirds of a build from scratch are the same headers read again: without a cache, several files of a folder
@@ -54,7 +54,7 @@ endif()
 option(WEFT_UNITY "compile the files of a folder together" ${WEFT_UNITY_DEFAULT})
 if(WEFT_UNITY AND NOT WEFT_TIDY)
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
   # A joined file includes the sources, so g++ takes what they keep to themselves for a header's.
   target_compile_options(weft_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
