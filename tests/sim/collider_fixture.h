@@ -2,13 +2,12 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "gpu_fixture.h"
 #include "scenes.h"
-#include "sim/validate.h"
+#include "validated_pass.h"
 
 namespace weft::test {
 
-class ColliderGpuTest : public GpuTest {
+class ColliderGpuTest : public ValidatedPassTest {
  protected:
   void equals_its_mirror(const std::string& set, const char* solver, const char* precision,
                          const char* pass) {
@@ -18,15 +17,7 @@ class ColliderGpuTest : public GpuTest {
         "0]\nimperfection = 0.01\n[[pins]]\nat = [0, 0]\n[gravity]\n" +
         set + fmt::format("[solver]\nprecision = \"{}\"\n", precision);
     const Model model = build_model(parse_scene(text, WEFT_SOURCE_DIR "/assets/scenes/test.toml").scene);
-    const ValidationReport report =
-        validate(device(), model, find_solver(solver), {.lockstep_substeps = 20, .lockstep_frames = 1});
-    std::size_t of_pass = 0;
-    for (const ValidationRow& row : report.rows) {
-      of_pass += row.check == pass ? 1 : 0;
-      EXPECT_TRUE(row.ok) << solver << " " << precision << ": " << row.check << ", " << row.state << ", "
-                          << row.buffer << ": " << row.verdict << ", " << row.max_ulp << " ulp";
-    }
-    EXPECT_GT(of_pass, 0u) << pass;
+    EXPECT_GT(rows_of(model, solver, pass), 0u) << pass << " " << precision;
   }
 };
 

@@ -4,30 +4,15 @@
 
 #include <algorithm>
 
-#include "gpu_fixture.h"
 #include "scenes.h"
 #include "sim/expect.h"
 #include "sim/gpu_simulation.h"
-#include "sim/validate.h"
+#include "validated_pass.h"
 
 namespace weft::test {
 namespace {
 
-class LongTornGpu : public GpuTest {
- protected:
-  /// Validates and returns how many rows are of a pass.
-  std::size_t rows_of(const Model& model, const char* solver, std::string_view pass) {
-    const ValidationReport report =
-        validate(device(), model, find_solver(solver), {.lockstep_substeps = 20, .lockstep_frames = 1});
-    std::size_t count = 0;
-    for (const ValidationRow& row : report.rows) {
-      count += row.check == pass ? 1 : 0;
-      EXPECT_TRUE(row.ok) << solver << ": " << row.check << ", " << row.state << ", " << row.buffer << ": "
-                          << row.verdict << ", " << row.max_ulp << " ulp";
-    }
-    return count;
-  }
-};
+class LongTornGpu : public ValidatedPassTest {};
 
 TEST_F(LongTornGpu, warp_and_weft_equal_their_mirrors) {
   for (const char* solver : {"leapfrog", "xpbd"}) {
