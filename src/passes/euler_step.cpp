@@ -27,16 +27,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass euler_step{
-    .name = "euler_step",
-    .about = "springs, damping, bending, air, gravity, contact: one step of explicit Euler",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass euler_step =
+    spring_pass("euler_step", "springs, damping, bending, air, gravity, contact: one step of explicit Euler",
+                mirror<float>, mirror<double>);
 
 }  // namespace weft

@@ -48,11 +48,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v = own.v;
     if (!own.pinned()) {
-      v = compensation.kicked(p, v, substep.change(v, substep.acceleration(force, own.w)));
-      x1 = compensation.drifted(p, own.x, substep.row.drift * v);
-      const Vec3<T> free_x = x1, free_v = v;
-      if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
-      if (x1 != free_x || v != free_v) compensation.forget(p);
+      kick_drift_touch(substep, compensation, p, substep.acceleration(force, own.w), own.x, x1, v);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(v, T(0));
@@ -61,32 +57,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass integrate{
-    .name = "integrate",
-    .about = "springs, damping, bending, air, gravity, contact: one kick and drift",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float, false>,
-    .mirror_f64 = mirror<double, false>,
-    .swaps_state = true,
-    .marches = true,
-    .compensated = &integrate_compensated,
-    .torn = &integrate_torn,
-};
+const Pass integrate =
+    spring_pass("integrate", "springs, damping, bending, air, gravity, contact: one kick and drift",
+                mirror<float, false>, mirror<double, false>, &integrate_compensated, &integrate_torn);
 
-const Pass integrate_compensated{
-    .name = "integrate_compensated",
-    .about =
-        "springs, damping, bending, air, gravity, contact: one kick and drift, positions summed with "
-        "compensation",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float, true>,
-    .mirror_f64 = mirror<double, true>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass integrate_compensated = spring_pass("integrate_compensated",
+                                               "springs, damping, bending, air, gravity, contact: one kick "
+                                               "and drift, positions summed with compensation",
+                                               mirror<float, true>, mirror<double, true>);
 
 }  // namespace weft

@@ -112,11 +112,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       Vec3<T> x1 = own.x, v = own.v;
       if (!own.pinned()) {
         const Vec3<T> force = gather.at(p % grid.nx, p / grid.nx);
-        v = compensation.kicked(p, v, substep.change(v, substep.acceleration(force, own.w)));
-        x1 = compensation.drifted(p, own.x, substep.row.drift * v);
-        const Vec3<T> free_x = x1, free_v = v;
-        if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
-        if (x1 != free_x || v != free_v) compensation.forget(p);
+        kick_drift_touch(substep, compensation, p, substep.acceleration(force, own.w), own.x, x1, v);
       }
       position_next[p] = glm::vec<4, T>(x1, own.relative);
       velocity_next[p] = glm::vec<4, T>(v, T(0));

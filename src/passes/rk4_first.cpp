@@ -28,16 +28,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass rk4_first{
-    .name = "rk4_first",
-    .about = "the first stage of Runge-Kutta: keeps the step's start, begins the sum",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass rk4_first =
+    spring_pass("rk4_first", "the first stage of Runge-Kutta: keeps the step's start, begins the sum",
+                mirror<float>, mirror<double>);
 
 }  // namespace weft

@@ -26,16 +26,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass rk4_last{
-    .name = "rk4_last",
-    .about = "the last stage of Runge-Kutta, the step and contact",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass rk4_last = spring_pass("rk4_last", "the last stage of Runge-Kutta, the step and contact",
+                                  mirror<float>, mirror<double>);
 
 }  // namespace weft

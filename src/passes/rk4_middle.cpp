@@ -26,16 +26,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass rk4_middle{
-    .name = "rk4_middle",
-    .about = "the second and third stage of Runge-Kutta",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass rk4_middle =
+    spring_pass("rk4_middle", "the second and third stage of Runge-Kutta", mirror<float>, mirror<double>);
 
 }  // namespace weft

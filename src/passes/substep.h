@@ -161,7 +161,44 @@ class Compensation {
   std::size_t count_;
 };
 
+/// docs/float-form.md "Kick and drift" of particle p from x0 with v, then contact; x1 and v are what comes of
+/// it.
+template <class T, bool kCompensated>
+void kick_drift_touch(const Substep<T>& substep, Compensation<T, kCompensated>& compensation, std::size_t p,
+                      const Vec3<T>& acceleration, const Vec3<T>& x0, Vec3<T>& x1, Vec3<T>& v) {
+  v = compensation.kicked(p, v, substep.change(v, acceleration));
+  x1 = compensation.drifted(p, x0, substep.row.drift * v);
+  const Vec3<T> free_x = x1, free_v = v;
+  if (substep.row.drift > T(0)) substep.touch(x0, x1, v);
+  if (x1 != free_x || v != free_v) compensation.forget(p);
+}
+
 /// What a pass that evaluates the cloth's springs once a dispatch declares.
 inline std::uint64_t every_spring(const Model& m) { return m.spring_count; }
+
+/// A pass that evaluates every spring once a dispatch, marching down the rows into the other half of the
+/// ping-pong, with the constants of `integrate`.
+constexpr Pass spring_pass(std::string_view name, std::string_view about,
+                           decltype(Pass::mirror_f32) mirror_f32, decltype(Pass::mirror_f64) mirror_f64) {
+  return {.name = name,
+          .about = about,
+          .domain = whole_cloth,
+          .constants = integrate_constants,
+          .spring_evaluations = every_spring,
+          .mirror_f32 = mirror_f32,
+          .mirror_f64 = mirror_f64,
+          .swaps_state = true,
+          .marches = true};
+}
+
+/// The same with a form that compensates positions (f32k), and one of whole links only where they break.
+constexpr Pass spring_pass(std::string_view name, std::string_view about,
+                           decltype(Pass::mirror_f32) mirror_f32, decltype(Pass::mirror_f64) mirror_f64,
+                           const Pass* compensated, const Pass* torn = nullptr) {
+  Pass pass = spring_pass(name, about, mirror_f32, mirror_f64);
+  pass.compensated = compensated;
+  pass.torn = torn;
+  return pass;
+}
 
 }  // namespace weft

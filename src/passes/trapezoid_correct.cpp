@@ -28,16 +28,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass trapezoid_correct{
-    .name = "trapezoid_correct",
-    .about = "the step with the mean of both slopes, and contact",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass trapezoid_correct = spring_pass(
+    "trapezoid_correct", "the step with the mean of both slopes, and contact", mirror<float>, mirror<double>);
 
 }  // namespace weft

@@ -25,16 +25,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass trapezoid_predict{
-    .name = "trapezoid_predict",
-    .about = "an Euler step, whose end is where the second slope is taken",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass trapezoid_predict =
+    spring_pass("trapezoid_predict", "an Euler step, whose end is where the second slope is taken",
+                mirror<float>, mirror<double>);
 
 }  // namespace weft

@@ -23,12 +23,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     Vec3<T> x1 = own.x, v = own.v, predicted = own.v;
     if (!own.pinned()) {
       const Vec3<T> acceleration = substep.acceleration(force, own.w);
-      const Vec3<T> v0 = starts ? own.v : xyz(half_velocity[p]);
-      v = compensation.kicked(p, v0, substep.change(v0, acceleration));
-      x1 = compensation.drifted(p, own.x, substep.row.drift * v);
-      const Vec3<T> free_x = x1, free_v = v;
-      if (substep.row.drift > T(0)) substep.touch(own.x, x1, v);
-      if (x1 != free_x || v != free_v) compensation.forget(p);
+      if (!starts) v = xyz(half_velocity[p]);
+      kick_drift_touch(substep, compensation, p, acceleration, own.x, x1, v);
       predicted = v + substep.change(v, acceleration, substep.row.predict_loss, substep.row.predict_gain);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
@@ -39,31 +35,14 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass velocity_verlet_step{
-    .name = "velocity_verlet_step",
-    .about = "springs, damping, bending, air, gravity, contact: one step of velocity Verlet",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float, false>,
-    .mirror_f64 = mirror<double, false>,
-    .swaps_state = true,
-    .marches = true,
-    .compensated = &velocity_verlet_compensated,
-};
+const Pass velocity_verlet_step = spring_pass(
+    "velocity_verlet_step", "springs, damping, bending, air, gravity, contact: one step of velocity Verlet",
+    mirror<float, false>, mirror<double, false>, &velocity_verlet_compensated);
 
-const Pass velocity_verlet_compensated{
-    .name = "velocity_verlet_compensated",
-    .about =
-        "springs, damping, bending, air, gravity, contact: one step of velocity Verlet, positions summed "
-        "with compensation",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float, true>,
-    .mirror_f64 = mirror<double, true>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass velocity_verlet_compensated =
+    spring_pass("velocity_verlet_compensated",
+                "springs, damping, bending, air, gravity, contact: one step of velocity Verlet, positions "
+                "summed with compensation",
+                mirror<float, true>, mirror<double, true>);
 
 }  // namespace weft

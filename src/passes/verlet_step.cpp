@@ -38,16 +38,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass verlet_step{
-    .name = "verlet_step",
-    .about = "springs, damping, bending, air, gravity, contact: one step of position Verlet",
-    .domain = whole_cloth,
-    .constants = integrate_constants,
-    .spring_evaluations = every_spring,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .swaps_state = true,
-    .marches = true,
-};
+const Pass verlet_step = spring_pass(
+    "verlet_step", "springs, damping, bending, air, gravity, contact: one step of position Verlet",
+    mirror<float>, mirror<double>);
 
 }  // namespace weft
