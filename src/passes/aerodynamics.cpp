@@ -1,10 +1,11 @@
-// aerodynamics: drag and lift of the triangles around each particle, as a kick that cannot overshoot.
-// Declaration and CPU mirror. Source: Wejchert and Haumann 1991, Animation aerodynamics.
+// aerodynamics, and aerodynamics_torn where links break: drag and lift of the whole triangles around each
+// particle, as a kick that cannot overshoot. Declarations and CPU mirror. Source: Wejchert and Haumann 1991,
+// Animation aerodynamics.
 #include <array>
 
 #include "passes/passes.h"
 #include "passes/solid.h"
-#include "passes/substep.h"
+#include "passes/tearing.h"
 #include "passes/wind_noise.h"
 
 namespace weft {
@@ -27,8 +28,13 @@ struct AirSum {
 template <class T>
 class AirForce {
  public:
-  AirForce(const HostBuffers<T>& buffers, const Grid& grid, const AirRow<T>& air)
-      : x_(buffers[BufferId::position]), v_(buffers[BufferId::velocity]), grid_(grid), air_(air) {}
+  AirForce(const HostBuffers<T>& buffers, const Grid& grid, const AirRow<T>& air,
+           std::span<const std::uint32_t> links)
+      : x_(buffers[BufferId::position]),
+        v_(buffers[BufferId::velocity]),
+        grid_(grid),
+        air_(air),
+        links_(links) {}
 
   /// Of the triangles around (i, j), in the order of docs/float-form.md "Vertex normals".
   AirSum<T> at(std::uint32_t i, std::uint32_t j, const Vec3<T>& wind) const {
@@ -44,6 +50,7 @@ class AirForce {
       const int ci = int(i) + triangle.cell_i, cj = int(j) + triangle.cell_j;
       if (ci < 0 || cj < 0 || ci + 1 >= int(grid_.nx) || cj + 1 >= int(grid_.ny)) continue;
       const std::uint32_t a = grid_.index(std::uint32_t(ci), std::uint32_t(cj)), below = a + grid_.nx;
+      if (!(triangle.second ? is_whole_b(links_, grid_, a) : is_whole_a(links_, a))) continue;
       if (triangle.second)
         add(a + 1, below, below + 1, wind, sum);
       else
@@ -68,9 +75,10 @@ class AirForce {
   const std::vector<glm::vec<4, T>>&x_, &v_;
   const Grid& grid_;
   const AirRow<T>& air_;
+  std::span<const std::uint32_t> links_;
 };
 
-template <class T>
+template <class T, bool kTorn>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Substep<T> substep(context);
   const Grid& grid = context.model.grid;
@@ -80,7 +88,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& velocity_next = buffers[BufferId::velocity_next];
   position_next.resize(grid.count());
   velocity_next.resize(grid.count());
-  const AirForce<T> force(buffers, grid, air);
+  const AirForce<T> force(buffers, grid, air, links_of<kTorn>(buffers));
   parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
@@ -105,8 +113,19 @@ const Pass aerodynamics{
     .about = "drag and lift of the triangles, quadratic in the speed of the air",
     .domain = domain,
     .constants = constants,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
+    .mirror_f32 = mirror<float, false>,
+    .mirror_f64 = mirror<double, false>,
+    .swaps_state = true,
+    .torn = &aerodynamics_torn,
+};
+
+const Pass aerodynamics_torn{
+    .name = "aerodynamics_torn",
+    .about = "drag and lift of the triangles that are whole, quadratic in the speed of the air",
+    .domain = domain,
+    .constants = constants,
+    .mirror_f32 = mirror<float, true>,
+    .mirror_f64 = mirror<double, true>,
     .swaps_state = true,
 };
 

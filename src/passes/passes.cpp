@@ -27,6 +27,7 @@ std::span<const Pass* const> passes() {
                                       &velocity_verlet_compensated,
                                       &normals,
                                       &aerodynamics,
+                                      &aerodynamics_torn,
                                       &solid_contact,
                                       &mesh_contact,
                                       &pin_release,

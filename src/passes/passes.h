@@ -32,6 +32,7 @@ extern const Pass pin_release;                 ///< what pins let go of gets its
 extern const Pass pin_place;                   ///< what moving pins hold, put where these are
 extern const Pass xpbd_pins;                   ///< XPBD: how far they move it
 extern const Pass tear;                        ///< links that are too long break
+extern const Pass aerodynamics_torn;           ///< aerodynamics of whole triangles only
 extern const Pass integrate_torn;              ///< integrate with whole links only
 extern const Pass integrate_torn_compensated;  ///< f32k
 extern const Pass normals_torn;                ///< normals with whole triangles only

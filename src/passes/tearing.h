@@ -12,4 +12,11 @@ inline std::uint64_t torn_mesh_words(const Grid& grid) {
 
 inline Range torn_cloth(const Model& m) { return m.scene.tearing ? whole_cloth(m) : Range{}; }
 
+/// The broken links a pass has to ask, empty (nothing is broken) where nothing tears.
+template <bool kTorn, class T>
+std::span<const std::uint32_t> links_of(const HostBuffers<T>& buffers) {
+  if constexpr (kTorn) return buffers.words_of(BufferId::broken_links);
+  return {};
+}
+
 }  // namespace weft

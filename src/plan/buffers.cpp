@@ -113,7 +113,10 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kSolidContact = {params, substeps, position, position_next, velocity};
   static constexpr std::array kAerodynamics = {params,        substeps, position,
                                                position_next, velocity, velocity_next};
+  static constexpr std::array kAerodynamicsTorn = {params,   substeps,      position,    position_next,
+                                                   velocity, velocity_next, broken_links};
   if (&pass == &weft::aerodynamics) return kAerodynamics;
+  if (&pass == &aerodynamics_torn) return kAerodynamicsTorn;
   if (&pass == &solid_contact) return kSolidContact;
   static constexpr std::array kMeshContact = {params,        substeps, position,
                                               position_next, velocity, distance_grids};

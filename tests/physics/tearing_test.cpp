@@ -147,6 +147,42 @@ TEST(Tearing, AStripBreaksAtItsStrain) {
   EXPECT_GT(broken(60), 0) << "50 % at 1 s";
 }
 
+/// Change of velocity [m/s] of every particle by the air on the whole triangles in a kick of 1 s, in double.
+std::vector<glm::dvec3> change_by_air(const Model& model, const State& state) {
+  HostBuffers<double> buffers;
+  buffers.words_of(BufferId::broken_links).resize(model.grid.count());
+  load_state(model, state, buffers);
+  const KickDrift row{.kick_s = 1.0};
+  aerodynamics_torn.mirror_f64({model, aerodynamics_torn.constants(model), row, 0}, buffers);
+  std::vector<glm::dvec3> result;
+  for (std::size_t p = 0; p < state.velocity.size(); ++p)
+    result.push_back(glm::dvec3(buffers[BufferId::velocity_next][p]) - state.velocity[p]);
+  return result;
+}
+
+// The air takes hold of triangles: of none once every link is gone, and a tear changes what happens to the
+// corners of the two triangles beside it and to nobody else.
+TEST(Tearing, TheAirGoesThroughTheHole) {
+  Scene scene = torn_scene(10.0);
+  scene.wind = WindSection{.velocity_m_s = {3.0, 1.0, 2.0}};
+  scene.aerodynamics = AerodynamicsSection{};
+  const Model model = build_model(scene);
+  const Grid& grid = model.grid;
+  State state = start_state(model);
+  shake(state, 0.01, 0.5, 7);
+  state.broken_links.assign(grid.count(), 0);
+  const std::vector<glm::dvec3> whole = change_by_air(model, state);
+  state.broken_links[grid.index(4, 3)] = shared::kLinkRising;  // between A and B of the cell at (4, 3)
+  const std::vector<glm::dvec3> torn = change_by_air(model, state);
+  for (std::uint32_t p = 0; p < grid.count(); ++p) {
+    const std::uint32_t i = p % grid.nx, j = p / grid.nx;
+    const bool corner = (i == 4 || i == 5) && (j == 3 || j == 4);
+    EXPECT_EQ(torn[p] != whole[p], corner) << i << ", " << j;
+  }
+  state.broken_links.assign(grid.count(), 15u);
+  for (const glm::dvec3& change : change_by_air(model, state)) EXPECT_EQ(change, glm::dvec3(0.0));
+}
+
 TEST(Tearing, IsRefusedWhereThereIsNoPassForIt) {
   const auto plan_of = [](const Scene& s, const char* solver, const char* precision) {
     return compile_plan(build_model(s), find_solver(solver), precision);

@@ -4,29 +4,14 @@
 
 #include <algorithm>
 
-#include "gpu_fixture.h"
 #include "scenes.h"
 #include "sim/gpu_simulation.h"
-#include "sim/validate.h"
+#include "validated_pass.h"
 
 namespace weft::test {
 namespace {
 
-class TornGpuTest : public GpuTest {
- protected:
-  /// Validates and returns how many rows are of a pass.
-  std::size_t rows_of(const Model& model, const char* solver, std::string_view pass) {
-    const ValidationReport report =
-        validate(device(), model, find_solver(solver), {.lockstep_substeps = 20, .lockstep_frames = 1});
-    std::size_t count = 0;
-    for (const ValidationRow& row : report.rows) {
-      count += row.check == pass ? 1 : 0;
-      EXPECT_TRUE(row.ok) << solver << ": " << row.check << ", " << row.state << ", " << row.buffer << ": "
-                          << row.verdict << ", " << row.max_ulp << " ulp";
-    }
-    return count;
-  }
-};
+class TornGpuTest : public ValidatedPassTest {};
 
 TEST_F(TornGpuTest, pins_that_let_go_equal_their_mirrors) {
   const Model model = full_model(R"(
@@ -61,6 +46,13 @@ TEST_F(TornGpuTest, tearing_equals_its_mirrors_and_is_drawn) {
   const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
   EXPECT_NE(simulation->draw_buffers().torn_mesh, VK_NULL_HANDLE);
   EXPECT_EQ(simulation->bytes_allocated(), simulation->bytes_expected());
+}
+
+TEST_F(TornGpuTest, air_on_whole_triangles_equals_its_mirror) {
+  Scene scene = full_model("").scene;
+  scene.tearing = TearingSection{0.04};
+  scene.aerodynamics = AerodynamicsSection{};
+  EXPECT_GT(rows_of(build_model(scene), "leapfrog", "aerodynamics_torn"), 0u);
 }
 
 // A state with its tears goes to the device and back.
