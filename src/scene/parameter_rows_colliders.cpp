@@ -9,6 +9,90 @@ namespace {
 using namespace parameter_access;
 using enum ParameterKind;
 
+// What the bodies' rows have in common; `row` adds where the value is kept.
+
+constexpr Parameter place_row(std::string_view section, std::string_view key, std::string_view about,
+                              std::string_view example) {
+  return {.section = section,
+          .key = key,
+          .kind = vec3,
+          .minimum = -kFarthest_m,
+          .maximum = kFarthest_m,
+          .required = true,
+          .unit = "m",
+          .about = about,
+          .example = example};
+}
+
+constexpr Parameter radius_row(std::string_view section, std::string_view about, std::string_view example) {
+  return {.section = section,
+          .key = "radius",
+          .minimum = 1e-4,
+          .maximum = 1000,
+          .required = true,
+          .slider_minimum = 0.02,
+          .slider_maximum = 1,
+          .unit = "m",
+          .about = about,
+          .example = example};
+}
+
+constexpr Parameter rotation_row(std::string_view section, std::string_view about) {
+  return {.section = section,
+          .key = "rotation",
+          .kind = vec3,
+          .minimum = -360,
+          .maximum = 360,
+          .slider_minimum = -180,
+          .slider_maximum = 180,
+          .unit = "°",
+          .about = about,
+          .example = "[0, 45, 0]"};
+}
+
+constexpr Parameter velocity_row(std::string_view section, std::string_view about) {
+  return {.section = section,
+          .key = "velocity",
+          .kind = vec3,
+          .minimum = -1000,
+          .maximum = 1000,
+          .unit = "m/s",
+          .about = about,
+          .example = "[0, 0, 1]"};
+}
+
+constexpr Parameter friction_row(std::string_view section) {
+  return {.section = section,
+          .key = "friction",
+          .maximum = 100,
+          .slider_maximum = 1,
+          .about = "Coulomb coefficient",
+          .example = "0.3"};
+}
+
+constexpr Parameter keys_row(std::string_view section, std::string_view about, std::string_view example) {
+  return {.section = section,
+          .key = "keys",
+          .kind = keys,
+          .minimum = -kFarthest_m,
+          .maximum = kFarthest_m,
+          .unit = "m",
+          .about = about,
+          .example = example,
+          .default_text = "none"};
+}
+
+constexpr std::string_view kTurningKeys =
+    "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0], rotation = [0, 90, 0] }]";
+
+constexpr Parameter sphere_keys_row() {
+  Parameter parameter = keys_row("spheres", "places of its centre in time, in place of center and velocity",
+                                 "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0] }]");
+  parameter.get = get_sphere_keys;
+  parameter.set = set_sphere_keys;
+  return parameter;
+}
+
 const Parameter kColliderRows[] = {
     row<&Scene::floor, &FloorSection::height_m>({.section = "floor",
                                                  .key = "height",
@@ -27,122 +111,29 @@ const Parameter kColliderRows[] = {
          .slider_maximum = 1,
          .about = "direction out of the floor, of any length; [0, 1, 0] is level",
          .example = "[0.2, 1, 0]"}),
-    row<&Scene::floor, &FloorSection::friction>({.section = "floor",
-                                                 .key = "friction",
-                                                 .maximum = 100,
-                                                 .slider_maximum = 1,
-                                                 .about = "Coulomb coefficient",
-                                                 .example = "0.3"}),
+    row<&Scene::floor, &FloorSection::friction>(friction_row("floor")),
 
-    row<&Scene::spheres, &SphereSection::center_m>({.section = "spheres",
-                                                    .key = "center",
-                                                    .kind = vec3,
-                                                    .minimum = -kFarthest_m,
-                                                    .maximum = kFarthest_m,
-                                                    .required = true,
-                                                    .unit = "m",
-                                                    .about = "middle of the sphere at the start",
-                                                    .example = "[0, 0.5, 0]"}),
-    row<&Scene::spheres, &SphereSection::radius_m>({.section = "spheres",
-                                                    .key = "radius",
-                                                    .minimum = 1e-4,
-                                                    .maximum = 1000,
-                                                    .required = true,
-                                                    .slider_minimum = 0.02,
-                                                    .slider_maximum = 1,
-                                                    .unit = "m",
-                                                    .about = "radius of the sphere",
-                                                    .example = "0.25"}),
-    row<&Scene::spheres, &SphereSection::velocity_m_s>({.section = "spheres",
-                                                        .key = "velocity",
-                                                        .kind = vec3,
-                                                        .minimum = -1000,
-                                                        .maximum = 1000,
-                                                        .unit = "m/s",
-                                                        .about = "the sphere moves steadily with it",
-                                                        .example = "[0, 0, 1]"}),
-    row<&Scene::spheres, &SphereSection::friction>({.section = "spheres",
-                                                    .key = "friction",
-                                                    .maximum = 100,
-                                                    .slider_maximum = 1,
-                                                    .about = "Coulomb coefficient",
-                                                    .example = "0.3"}),
-    {.section = "spheres",
-     .key = "keys",
-     .kind = keys,
-     .minimum = -kFarthest_m,
-     .maximum = kFarthest_m,
-     .unit = "m",
-     .about = "places of its centre in time, in place of center and velocity",
-     .example = "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0] }]",
-     .default_text = "none",
-     .get = get_sphere_keys,
-     .set = set_sphere_keys},
+    row<&Scene::spheres, &SphereSection::center_m>(
+        place_row("spheres", "center", "middle of the sphere at the start", "[0, 0.5, 0]")),
+    row<&Scene::spheres, &SphereSection::radius_m>(radius_row("spheres", "radius of the sphere", "0.25")),
+    row<&Scene::spheres, &SphereSection::velocity_m_s>(
+        velocity_row("spheres", "the sphere moves steadily with it")),
+    row<&Scene::spheres, &SphereSection::friction>(friction_row("spheres")),
+    sphere_keys_row(),
 
-    row<&Scene::capsules, &CapsuleSection::a_m>({.section = "capsules",
-                                                 .key = "a",
-                                                 .kind = vec3,
-                                                 .minimum = -kFarthest_m,
-                                                 .maximum = kFarthest_m,
-                                                 .required = true,
-                                                 .unit = "m",
-                                                 .about = "one end of its axis at the start",
-                                                 .example = "[-0.5, 0.5, 0]"}),
-    row<&Scene::capsules, &CapsuleSection::b_m>({.section = "capsules",
-                                                 .key = "b",
-                                                 .kind = vec3,
-                                                 .minimum = -kFarthest_m,
-                                                 .maximum = kFarthest_m,
-                                                 .required = true,
-                                                 .unit = "m",
-                                                 .about = "the other end",
-                                                 .example = "[0.5, 0.5, 0]"}),
-    row<&Scene::capsules, &CapsuleSection::radius_m>({.section = "capsules",
-                                                      .key = "radius",
-                                                      .minimum = 1e-4,
-                                                      .maximum = 1000,
-                                                      .required = true,
-                                                      .slider_minimum = 0.02,
-                                                      .slider_maximum = 1,
-                                                      .unit = "m",
-                                                      .about = "distance of its surface from the axis",
-                                                      .example = "0.1"}),
+    row<&Scene::capsules, &CapsuleSection::a_m>(
+        place_row("capsules", "a", "one end of its axis at the start", "[-0.5, 0.5, 0]")),
+    row<&Scene::capsules, &CapsuleSection::b_m>(place_row("capsules", "b", "the other end", "[0.5, 0.5, 0]")),
+    row<&Scene::capsules, &CapsuleSection::radius_m>(
+        radius_row("capsules", "distance of its surface from the axis", "0.1")),
+    row<&Scene::capsules, &SolidSection::velocity_m_s>(velocity_row("capsules", "it moves steadily with it")),
+    row<&Scene::capsules, &SolidSection::friction>(friction_row("capsules")),
+    row<&Scene::capsules, &SolidSection::keys>(keys_row(
+        "capsules", "places of its middle in time, and what it is turned by (rotation), in place of velocity",
+        kTurningKeys)),
 
-    row<&Scene::capsules, &SolidSection::velocity_m_s>({.section = "capsules",
-                                                        .key = "velocity",
-                                                        .kind = vec3,
-                                                        .minimum = -1000,
-                                                        .maximum = 1000,
-                                                        .unit = "m/s",
-                                                        .about = "it moves steadily with it",
-                                                        .example = "[0, 0, 1]"}),
-    row<&Scene::capsules, &SolidSection::friction>({.section = "capsules",
-                                                    .key = "friction",
-                                                    .maximum = 100,
-                                                    .slider_maximum = 1,
-                                                    .about = "Coulomb coefficient",
-                                                    .example = "0.3"}),
-    row<&Scene::capsules, &SolidSection::keys>(
-        {.section = "capsules",
-         .key = "keys",
-         .kind = keys,
-         .minimum = -kFarthest_m,
-         .maximum = kFarthest_m,
-         .unit = "m",
-         .about = "places of its middle in time, and what it is turned by (rotation), in place of velocity",
-         .example =
-             "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0], rotation = [0, 90, 0] }]",
-         .default_text = "none"}),
-
-    row<&Scene::boxes, &BoxSection::center_m>({.section = "boxes",
-                                               .key = "center",
-                                               .kind = vec3,
-                                               .minimum = -kFarthest_m,
-                                               .maximum = kFarthest_m,
-                                               .required = true,
-                                               .unit = "m",
-                                               .about = "middle of the box at the start",
-                                               .example = "[0, 0.5, 0]"}),
+    row<&Scene::boxes, &BoxSection::center_m>(
+        place_row("boxes", "center", "middle of the box at the start", "[0, 0.5, 0]")),
     row<&Scene::boxes, &BoxSection::size_m>({.section = "boxes",
                                              .key = "size",
                                              .kind = vec3,
@@ -155,43 +146,14 @@ const Parameter kColliderRows[] = {
                                              .about = "whole edges along its own axes",
                                              .example = "[0.4, 0.2, 0.4]"}),
     row<&Scene::boxes, &BoxSection::rotation_deg>(
-        {.section = "boxes",
-         .key = "rotation",
-         .kind = vec3,
-         .minimum = -360,
-         .maximum = 360,
-         .slider_minimum = -180,
-         .slider_maximum = 180,
-         .unit = "°",
-         .about = "turned about x, then y, then z, through its middle",
-         .example = "[0, 45, 0]"}),
-
-    row<&Scene::boxes, &SolidSection::velocity_m_s>({.section = "boxes",
-                                                     .key = "velocity",
-                                                     .kind = vec3,
-                                                     .minimum = -1000,
-                                                     .maximum = 1000,
-                                                     .unit = "m/s",
-                                                     .about = "it moves steadily with it",
-                                                     .example = "[0, 0, 1]"}),
-    row<&Scene::boxes, &SolidSection::friction>({.section = "boxes",
-                                                 .key = "friction",
-                                                 .maximum = 100,
-                                                 .slider_maximum = 1,
-                                                 .about = "Coulomb coefficient",
-                                                 .example = "0.3"}),
+        rotation_row("boxes", "turned about x, then y, then z, through its middle")),
+    row<&Scene::boxes, &SolidSection::velocity_m_s>(velocity_row("boxes", "it moves steadily with it")),
+    row<&Scene::boxes, &SolidSection::friction>(friction_row("boxes")),
     row<&Scene::boxes, &SolidSection::keys>(
-        {.section = "boxes",
-         .key = "keys",
-         .kind = keys,
-         .minimum = -kFarthest_m,
-         .maximum = kFarthest_m,
-         .unit = "m",
-         .about = "places of its middle in time, and what it is turned by (rotation), in place of center and "
-                  "velocity",
-         .example =
-             "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0], rotation = [0, 90, 0] }]",
-         .default_text = "none"}),
+        keys_row("boxes",
+                 "places of its middle in time, and what it is turned by (rotation), in place of center and "
+                 "velocity",
+                 kTurningKeys)),
 
     row<&Scene::meshes, &MeshSection::file>({.section = "meshes",
                                              .key = "file",
@@ -199,15 +161,8 @@ const Parameter kColliderRows[] = {
                                              .required = true,
                                              .about = "a closed OBJ mesh, named from the scene's folder",
                                              .example = "\"bowl.obj\""}),
-    row<&Scene::meshes, &MeshSection::center_m>({.section = "meshes",
-                                                 .key = "center",
-                                                 .kind = vec3,
-                                                 .minimum = -kFarthest_m,
-                                                 .maximum = kFarthest_m,
-                                                 .required = true,
-                                                 .unit = "m",
-                                                 .about = "where the file's origin is at the start",
-                                                 .example = "[0, 0.5, 0]"}),
+    row<&Scene::meshes, &MeshSection::center_m>(
+        place_row("meshes", "center", "where the file's origin is at the start", "[0, 0.5, 0]")),
     row<&Scene::meshes, &MeshSection::scale>({.section = "meshes",
                                               .key = "scale",
                                               .minimum = 1e-6,
@@ -219,16 +174,7 @@ const Parameter kColliderRows[] = {
                                               .about = "length of one unit of the file",
                                               .example = "0.01 for a file in cm"}),
     row<&Scene::meshes, &MeshSection::rotation_deg>(
-        {.section = "meshes",
-         .key = "rotation",
-         .kind = vec3,
-         .minimum = -360,
-         .maximum = 360,
-         .slider_minimum = -180,
-         .slider_maximum = 180,
-         .unit = "°",
-         .about = "turned about x, then y, then z, through its origin",
-         .example = "[0, 45, 0]"}),
+        rotation_row("meshes", "turned about x, then y, then z, through its origin")),
     row<&Scene::meshes, &MeshSection::resolution>(
         {.section = "meshes",
          .key = "resolution",
@@ -239,32 +185,13 @@ const Parameter kColliderRows[] = {
          .slider_maximum = 128,
          .about = "cells of its distance grid along the longest side",
          .example = "64"}),
-    row<&Scene::meshes, &SolidSection::velocity_m_s>({.section = "meshes",
-                                                      .key = "velocity",
-                                                      .kind = vec3,
-                                                      .minimum = -1000,
-                                                      .maximum = 1000,
-                                                      .unit = "m/s",
-                                                      .about = "it moves steadily with it",
-                                                      .example = "[0, 0, 1]"}),
-    row<&Scene::meshes, &SolidSection::friction>({.section = "meshes",
-                                                  .key = "friction",
-                                                  .maximum = 100,
-                                                  .slider_maximum = 1,
-                                                  .about = "Coulomb coefficient",
-                                                  .example = "0.3"}),
+    row<&Scene::meshes, &SolidSection::velocity_m_s>(velocity_row("meshes", "it moves steadily with it")),
+    row<&Scene::meshes, &SolidSection::friction>(friction_row("meshes")),
     row<&Scene::meshes, &SolidSection::keys>(
-        {.section = "meshes",
-         .key = "keys",
-         .kind = keys,
-         .minimum = -kFarthest_m,
-         .maximum = kFarthest_m,
-         .unit = "m",
-         .about = "places of its origin in time, and what it is turned by (rotation), in place of center and "
-                  "velocity",
-         .example =
-             "[{ time = 0, center = [0, 1, 0] }, { time = 2, center = [0, 0, 0], rotation = [0, 90, 0] }]",
-         .default_text = "none"}),
+        keys_row("meshes",
+                 "places of its origin in time, and what it is turned by (rotation), in place of center and "
+                 "velocity",
+                 kTurningKeys)),
 
     row<&Scene::self_collision, &SelfCollisionSection::thickness_m>(
         {.section = "self_collision",
