@@ -71,9 +71,7 @@ Exit run_bench(const Options& o) {
                 "beside all others; see `weft devices`");
   if (o.effects) return run_effect_bench(o);
   if (o.on_native()) return run_backend_bench(o);
-  std::vector<Scene> scenes;
-  for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
-    scenes.push_back(set_up(o, name).model.scene);
+  const std::vector<Scene> scenes = scenes_to_time(o);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   BenchOptions options;
   options.kernel = o.kernel;

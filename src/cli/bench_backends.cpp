@@ -36,9 +36,7 @@ std::unique_ptr<gpu::Device> device_beside(const Options& o) {
 }  // namespace
 
 Exit run_backend_bench(const Options& o) {
-  std::vector<Scene> wanted;
-  for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
-    wanted.push_back(set_up(o, name).model.scene);
+  const std::vector<Scene> wanted = scenes_to_time(o);
   const std::unique_ptr<gpu::Device> device = device_beside(o);
   BackendBenchOptions options;
   if (o.resolution) options.resolutions = {*o.resolution};

@@ -49,9 +49,7 @@ Exit run_effect_bench(const Options& o) {
                 "bench --effects: --device is {}; it must be a Vulkan device, whose timestamps are read (see "
                 "`weft devices`)",
                 o.device);
-  std::vector<Scene> scenes;
-  for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
-    scenes.push_back(set_up(o, name).model.scene);
+  const std::vector<Scene> scenes = scenes_to_time(o);
   const std::unique_ptr<gpu::Device> device = open_device(o);
   EffectBenchOptions options;
   if (o.time_s) options.time_s = *o.time_s;

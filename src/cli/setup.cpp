@@ -65,6 +65,13 @@ Setup set_up(const Options& o, const std::string& number_name_or_path) {
   return setup;
 }
 
+std::vector<Scene> scenes_to_time(const Options& o) {
+  std::vector<Scene> scenes;
+  for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
+    scenes.push_back(set_up(o, name).model.scene);
+  return scenes;
+}
+
 Options with_default_device(const Options& o) {
   const bool speaks_of_vulkan = !o.device.empty() || !o.kernel.empty() || !o.shaders.empty() ||
                                 o.validation || o.force_staging || std::getenv("WEFT_KERNEL") != nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/options.h"
 #include "gpu/device.h"
@@ -42,6 +43,10 @@ Scene open_scene(const Options&, const std::string& number_name_or_path);
 /// open_scene, then the model and the solver, with the precision checked against the device asked for.
 /// @throws Error(Exit::usage)
 Setup set_up(const Options&, const std::string& number_name_or_path);
+
+/// The scenes of a bench: those that were named, else scene 1.
+/// @throws Error(Exit::usage)
+std::vector<Scene> scenes_to_time(const Options&);
 
 /// The options with `--device native` where no device is named and native is the default: the best Vulkan
 /// device is a software one, and no option speaks of Vulkan (--kernel, --shaders, --validation,

@@ -73,26 +73,19 @@ TEST_F(WindowTest, MouseOrbitsZoomsPansPullsAndPins) {
   window.key("space");
   ASSERT_TRUE(window.wait_for("paused", "1"));
   const std::string camera = window.value("camera");
-  const auto differs = [&](const std::string& from) {
-    for (int k = 0; k < 100 && window.value("camera") == from; ++k) window.wait_pictures(1, 1.0);
-    return window.value("camera") != from;
+  /// What the hands do moves the camera; Home brings it back.
+  const auto moves = [&](const char* hands) {
+    window.act(hands);
+    for (int k = 0; k < 100 && window.value("camera") == camera; ++k) window.wait_pictures(1, 1.0);
+    EXPECT_NE(window.value("camera"), camera) << hands;
+    window.key("Home");
+    EXPECT_TRUE(window.wait_for("camera", camera)) << hands;
   };
-  window.act("mousemove --window $W 1200 690 mousedown 1 mousemove --window $W --sync 1230 670 mouseup 1");
-  EXPECT_TRUE(differs(camera)) << "orbit";
-  window.key("Home");
-  EXPECT_TRUE(window.wait_for("camera", camera));
-  window.act("mousemove --window $W 1200 690 mousedown 2 mousemove_relative --sync 40 10 mouseup 2");
-  EXPECT_TRUE(differs(camera)) << "pan";
-  window.key("Home");
-  EXPECT_TRUE(window.wait_for("camera", camera));
-  window.act("mousemove --window $W 1200 690 click 4");
-  EXPECT_TRUE(differs(camera)) << "zoom";
-  window.key("Home");
-  EXPECT_TRUE(window.wait_for("camera", camera));
-  window.act("keydown w sleep 0.3 keyup w");
-  EXPECT_TRUE(differs(camera)) << "W";
-  window.key("Home");
-  EXPECT_TRUE(window.wait_for("camera", camera));
+  moves(
+      "mousemove --window $W 1200 690 mousedown 1 mousemove --window $W --sync 1230 670 mouseup 1");  // orbit
+  moves("mousemove --window $W 1200 690 mousedown 2 mousemove_relative --sync 40 10 mouseup 2");      // pan
+  moves("mousemove --window $W 1200 690 click 4");                                                    // zoom
+  moves("keydown w sleep 0.3 keyup w");
 
   window.key("space");
   window.act("mousemove --window $W 800 330 mousedown 1 mousemove_relative --sync 12 8");
