@@ -135,31 +135,49 @@ bool enters_mesh(Samples g, real3 p0, real3 D, real deep, inout real entry) {
   return true;
 }
 
-void mesh_touch(uint row, real3 x0, inout real3 x1, inout real3 v) {
-  Samples g = samples_of(row);
-  precise real3 from = x0 - substeps[row + 1u].xyz;
-  precise real3 to = x1 - substeps[row].xyz;
-  real3 p0 = in_frame(row + 7u, from), p1 = in_frame(row + 4u, to);
-  precise real3 D = p1 - p0;
-  precise real dd = dot3(D, D);
-  precise real half_cell = real(0.5) * g.cell_m;
-  real deep = substeps[row + 2u].w, entry = 0.0;
-  bool entered = dd > half_cell * half_cell && enters_mesh(g, p0, D, deep, entry);
-  precise real3 p = p1;
-  if (entered) {
-    precise real3 way = entry * D;
-    p = p0 + way;
-  } else if (!in_grid(g, p1)) {
-    return;
-  }
+// Puts x1 where p comes to on the surface, and takes the approach from v; p is then the surface there.
+void mesh_respond(uint row, Samples g, inout real3 p, out real3 normal, inout real3 x1, inout real3 v) {
   Near near = near_mesh(g, p);
-  if (!entered && !(near.d < 0.0)) return;
   for (uint k = 0u; k < kMeshProjections; ++k) {  // the distance between samples is not quite one
     precise real3 inwards = near.d * near.n;
     p = p - inwards;
     near = near_mesh(g, p);
   }
   touch_solid(row, p, near, x1, v);
+  precise real3 inwards = near.d * near.n;
+  precise real3 surface = p - inwards;
+  p = surface;
+  normal = near.n;
+}
+
+// A path that goes deep is turned aside where it enters, and followed once more from there along the tangent
+// plane; a second time it ends where it enters.
+void mesh_touch(uint row, real3 x0, inout real3 x1, inout real3 v) {
+  Samples g = samples_of(row);
+  precise real3 come = x0 - substeps[row + 1u].xyz;
+  precise real3 gone = x1 - substeps[row].xyz;
+  precise real half_cell = real(0.5) * g.cell_m;
+  real3 from = in_frame(row + 7u, come), to = in_frame(row + 4u, gone), normal;
+  for (uint turn = 0u; turn < 2u; ++turn) {
+    precise real3 D = to - from;
+    precise real dd = dot3(D, D);
+    real entry = 0.0;
+    if (!(dd > half_cell * half_cell && enters_mesh(g, from, D, substeps[row + 2u].w, entry))) {
+      if (in_grid(g, to) && near_mesh(g, to).d < 0.0) mesh_respond(row, g, to, normal, x1, v);
+      return;
+    }
+    precise real3 way = entry * D;
+    precise real3 met = from + way;
+    from = met;
+    mesh_respond(row, g, from, normal, x1, v);
+    if (turn == 1u) return;
+    precise real3 beyond = to - from;
+    precise real3 up = min(dot3(beyond, normal), real(0.0)) * normal;
+    precise real3 slid = to - up;
+    to = slid;
+    precise real3 stopped = substeps[row].xyz + in_world(row + 4u, to);
+    x1 = stopped;
+  }
 }
 
 void main() {

@@ -5,7 +5,8 @@
 
 // Where the path p0 → p1 through a sphere's frame first meets its surface, if it went deeper than 1 % of
 // the reach; else p1. Shallower chords are particles sliding round the sphere.
-real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit) {
+real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit, out bool entered) {
+  entered = false;
   precise real3 D = p1 - p0;
   precise real m = real(99.0) / real(100.0) * reach;
   precise real m2 = m * m;
@@ -33,6 +34,7 @@ real3 sphere_stop(real3 p0, real3 p1, real reach, out bool hit) {
       precise real3 travelled = tau * D;
       precise real3 e = p0 + travelled;
       hit = true;
+      entered = true;
       return e;
     }
   }
@@ -66,8 +68,8 @@ void sphere_contact(SphereRows rows_of, real3 x0, inout real3 x1, inout real3 v)
   real4 place = rows_of.place, travel = rows_of.travel;
   precise real3 p0 = x0 - (place.xyz - travel.xyz);
   precise real3 p1 = x1 - place.xyz;
-  bool hit;
-  precise real3 e = sphere_stop(p0, p1, place.w, hit);
+  bool hit, entered;
+  precise real3 e = sphere_stop(p0, p1, place.w, hit, entered);
   if (!hit) return;
   precise real l = sqrt(dot3(e, e));
   precise real3 n = real3(0.0, 1.0, 0.0);
@@ -76,6 +78,11 @@ void sphere_contact(SphereRows rows_of, real3 x0, inout real3 x1, inout real3 v)
     n = e * inverse;
   }
   precise real3 out_to = place.w * n;
+  if (entered) {  // it goes on along the tangent plane
+    precise real3 beyond = p1 - out_to;
+    precise real3 up = dot3(beyond, n) * n;
+    out_to = p1 - up;
+  }
   precise real3 stopped = place.xyz + out_to;
   x1 = stopped;
   v = respond(v, rows_of.velocity.xyz, n, travel.w);

@@ -47,8 +47,9 @@ bool falls_to(real level, real near_enough, real3 p0, real3 D, real3 half_m, rea
   return false;
 }
 
-// The point of contact in the body's own frame: where the path p0 → p1 entered, when it went deep; else its
-// end.
+// The point of contact in the body's own frame. A path p0 → p1 that went deep goes on along the surface from
+// where it entered: its end is moved onto the tangent plane there, behind which the whole of a convex body
+// lies. Else its end.
 real3 solid_stop(real3 p0, real3 p1, real3 half_m, real reach, real deep, out Near near, out bool hit) {
   precise real3 D = p1 - p0;
   precise real dd = dot3(D, D);
@@ -65,10 +66,19 @@ real3 solid_stop(real3 p0, real3 p1, real3 half_m, real reach, real deep, out Ne
   t = 0.0;
   falls_to(real(0.0), near_enough, p0, D, half_m, reach, t);
   precise real3 way = t * D;
-  precise real3 p = p0 + way;
-  near = near_rounded_box(p, half_m, reach);
+  precise real3 entry = p0 + way;
+  Near at = near_rounded_box(entry, half_m, reach);
+  precise real3 inwards = at.d * at.n;
+  precise real3 surface = entry - inwards;
+  precise real3 beyond = p1 - surface;
+  precise real rise = dot3(beyond, at.n);
+  if (!(rise < 0.0)) return p1;
+  precise real3 up = rise * at.n;
+  precise real3 slid = p1 - up;
+  near.n = at.n;
+  near.d = 0.0;
   hit = true;
-  return p;
+  return slid;
 }
 
 real3 in_frame(uint axes, real3 r) {

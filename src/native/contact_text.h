@@ -32,7 +32,9 @@ __attribute__((noinline)) void touch_sphere(const Sphere& sphere, const Vec3& x0
   const Vec l = root(dot(point, point));
   const Vec3 up{zero, splat(1.0f), zero};
   const Vec3 n = select(l > splat(kNoLength), (splat(1.0f) / l) * point, up);
-  x1 = select(hit, center + reach * n, x1);
+  const Vec3 surface = reach * n;
+  const Vec3 along = p1 - dot(p1 - surface, n) * n;
+  x1 = select(hit, center + select(entered, along, surface), x1);
   v = select(hit, respond(v, splat3(sphere.velocity), n, splat(sphere.friction)), v);
 }
 

@@ -26,10 +26,13 @@ glm::vec<3, T> respond(const glm::vec<3, T>& v, const glm::vec<3, T>& surface, c
   return surface + keep * tangential;
 }
 
-/// The place from which the contact normal points, relative to the sphere's centre at the drift's end:
-/// where the path entered, when it went deep; else its end. False: no contact.
+/// Where a path meets a sphere, relative to its centre at the drift's end.
+enum class SphereMeeting { none, ends_inside, enters_deep };
+
+/// @param point  from which the contact normal points: where the path entered, when it went deep; else its
+/// end
 template <class T>
-bool sphere_contact_point(const SphereRow<T>& sphere, const glm::vec<3, T>& p0, const glm::vec<3, T>& p1,
+SphereMeeting meet_sphere(const SphereRow<T>& sphere, const glm::vec<3, T>& p0, const glm::vec<3, T>& p1,
                           glm::vec<3, T>& point) {
   const glm::vec<3, T> path = p1 - p0;
   const T depth = static_cast<T>(0.99) * sphere.reach, depth2 = depth * depth;
@@ -37,12 +40,12 @@ bool sphere_contact_point(const SphereRow<T>& sphere, const glm::vec<3, T>& p0, 
   const bool deep = dot3(p1, path) > T(0) ? c0 - (b * b) / a < depth2 : c1 < depth2;
   if (!(b < T(0) && c0 >= depth2 && deep)) {
     point = p1;
-    return c1 < sphere.reach * sphere.reach;
+    return c1 < sphere.reach * sphere.reach ? SphereMeeting::ends_inside : SphereMeeting::none;
   }
   const T k = b * b - a * (c0 - sphere.reach * sphere.reach);
   const T tau = std::max((-b - std::sqrt(std::max(k, T(0)))) / a, T(0));
   point = p0 + tau * path;
-  return true;
+  return SphereMeeting::enters_deep;
 }
 
 template <class T>
@@ -51,11 +54,16 @@ void sphere_contact(const SphereRow<T>& sphere, const glm::vec<3, T>& x0, glm::v
   const glm::vec<3, T> p0 = x0 - (sphere.center - sphere.travel);
   const glm::vec<3, T> p1 = x1 - sphere.center;
   glm::vec<3, T> point;
-  if (!sphere_contact_point(sphere, p0, p1, point)) return;
+  const SphereMeeting meeting = meet_sphere(sphere, p0, p1, point);
+  if (meeting == SphereMeeting::none) return;
   const T l = std::sqrt(dot3(point, point));
   const glm::vec<3, T> n =
       l > static_cast<T>(shared::kNoLength) ? point * (T(1) / l) : glm::vec<3, T>(T(0), T(1), T(0));
-  x1 = sphere.center + sphere.reach * n;
+  glm::vec<3, T> surface = sphere.reach * n;
+  // From where it entered the path goes on along the tangent plane, as its velocity does: put back there, it
+  // would gain speed from what pulls it along the sphere, and never move.
+  if (meeting == SphereMeeting::enters_deep) surface = p1 - dot3(p1 - surface, n) * n;
+  x1 = sphere.center + surface;
   v = respond(v, sphere.velocity, n, sphere.friction);
 }
 

@@ -126,25 +126,45 @@ bool enters_mesh(const MeshField<T>& field, T deep, const Vec3<T>& p0, const Vec
   return false;
 }
 
+/// Puts x1 where `point` comes to on the surface, and takes the approach from v.
+/// @return the surface there, in the body's frame, at distance 0
 template <class T>
-void mesh_touch(const MeshField<T>& field, const SolidRow<T>& row, const Vec3<T>& x0, Vec3<T>& x1,
-                Vec3<T>& v) {
-  const Vec3<T> p0 = in_frame(row.start_axes, x0 - row.start), p1 = in_frame(row.axes, x1 - row.center);
-  const Vec3<T> way = p1 - p0;
-  const T half_cell = T(0.5) * field.cell();
-  T entry = T(0);
-  const bool entered = dot3(way, way) > half_cell * half_cell && enters_mesh(field, row.deep, p0, way, entry);
-  if (!entered && !field.holds(p1)) return;
-  Vec3<T> p = entered ? p0 + entry * way : p1;
+Vec3<T> mesh_respond(const MeshField<T>& field, const SolidRow<T>& row, const Vec3<T>& point, Vec3<T>& x1,
+                     Vec3<T>& v, Vec3<T>& normal) {
+  Vec3<T> p = point;
   SolidNear<T> near = field.near(p);
-  if (!entered && !(near.distance < T(0))) return;
   for (std::uint32_t k = 0; k < shared::kMeshProjections; ++k) {
     p = p - near.distance * near.normal;
     near = field.near(p);
   }
-  const Vec3<T> arm = in_world(row.axes, p - near.distance * near.normal);
+  const Vec3<T> surface = p - near.distance * near.normal, arm = in_world(row.axes, surface);
   x1 = row.center + arm;
   v = respond(v, row.velocity + cross3(row.spin, arm), in_world(row.axes, near.normal), row.friction);
+  normal = near.normal;
+  return surface;
+}
+
+/// A path that goes deep is turned aside where it enters, and followed once more from there along the tangent
+/// plane; a second time it ends where it enters.
+template <class T>
+void mesh_touch(const MeshField<T>& field, const SolidRow<T>& row, const Vec3<T>& x0, Vec3<T>& x1,
+                Vec3<T>& v) {
+  Vec3<T> from = in_frame(row.start_axes, x0 - row.start), to = in_frame(row.axes, x1 - row.center), normal;
+  const T half_cell = T(0.5) * field.cell();
+  for (int turn = 0; turn < 2; ++turn) {
+    const Vec3<T> way = to - from;
+    T entry = T(0);
+    const bool entered =
+        dot3(way, way) > half_cell * half_cell && enters_mesh(field, row.deep, from, way, entry);
+    if (!entered) {
+      if (field.holds(to) && field.near(to).distance < T(0)) mesh_respond(field, row, to, x1, v, normal);
+      return;
+    }
+    from = mesh_respond(field, row, from + entry * way, x1, v, normal);
+    if (turn == 1) return;
+    to = to - std::min(dot3(to - from, normal), T(0)) * normal;
+    x1 = row.center + in_world(row.axes, to);
+  }
 }
 
 template <class T>

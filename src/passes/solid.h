@@ -66,6 +66,23 @@ bool enters_deep(const SolidRow<T>& solid, const glm::vec<3, T>& p0, const glm::
   return true;
 }
 
+/// From where a path entered it goes on along the surface: its end is moved onto the tangent plane, behind
+/// which the whole of a convex body lies. Were it put back to where it entered, a velocity along the surface
+/// would take it nowhere, and what pulls it there would add to that velocity for ever.
+/// @param point  where the path entered, then where it ends; `near` is of that, at distance 0
+/// @return       false where the path leads out at `point`, so that nothing stops it
+template <class T>
+bool slides_on(const SolidRow<T>& solid, const glm::vec<3, T>& p1, glm::vec<3, T>& point,
+               SolidNear<T>& near) {
+  near = near_solid(solid, point);
+  const glm::vec<3, T> surface = point - near.distance * near.normal;
+  const T rise = dot3(p1 - surface, near.normal);
+  if (!(rise < T(0))) return false;
+  point = p1 - rise * near.normal;
+  near.distance = T(0);
+  return true;
+}
+
 template <class T>
 glm::vec<3, T> in_frame(const glm::vec<3, T> (&axes)[3], const glm::vec<3, T>& r) {
   return {dot3(axes[0], r), dot3(axes[1], r), dot3(axes[2], r)};
@@ -87,9 +104,13 @@ void solid_touch(const SolidRow<T>& solid, const glm::vec<3, T>& x0, glm::vec<3,
   const glm::vec<3, T> p0 = in_frame(solid.start_axes, x0 - solid.start);
   const glm::vec<3, T> p1 = in_frame(solid.axes, x1 - solid.center);
   glm::vec<3, T> point = p1;
-  const bool entered = enters_deep(solid, p0, p1, point);
-  const SolidNear<T> near = near_solid(solid, point);
-  if (!entered && !(near.distance < T(0))) return;
+  SolidNear<T> near;
+  const bool stopped = enters_deep(solid, p0, p1, point) && slides_on(solid, p1, point, near);
+  if (!stopped) {
+    point = p1;
+    near = near_solid(solid, p1);
+    if (!(near.distance < T(0))) return;
+  }
   const glm::vec<3, T> arm = in_world(solid.axes, point - near.distance * near.normal);
   x1 = solid.center + arm;
   v = respond(v, solid.velocity + cross3(solid.spin, arm), in_world(solid.axes, near.normal), solid.friction);
