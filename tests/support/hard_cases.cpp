@@ -12,6 +12,8 @@
 #include "model/carry.h"
 #include "model/measures.h"
 #include "scene/reader.h"
+#include "support/hard_effects.h"
+#include "support/hard_measures.h"
 
 namespace weft::hard {
 namespace {
@@ -20,42 +22,6 @@ glm::dvec3 random_vector(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const double x = unit(random), y = unit(random), z = unit(random);
   return {x, y, z};
-}
-
-double deepest_share(const Model& model, const State& state) {
-  double deepest = 0.0;
-  if (model.scene.floor)
-    for (const glm::dvec3& x : state.position)
-      deepest = std::max(deepest, (model.scene.floor->height_m - x.y) / model.grid.width_m());
-  for (const SphereSection& sphere : model.scene.spheres) {
-    const glm::dvec3 center = sphere_center_at(sphere, state.time_s);
-    for (std::size_t p = 0; p < state.position.size(); ++p)
-      if (model.relative_inverse_mass[p] != 0.0)
-        deepest = std::max(deepest, 1.0 - glm::distance(state.position[p], center) / sphere.radius_m);
-  }
-  return deepest;
-}
-
-/// Particles whose way from one frame's end to the next, seen from a sphere, leads through more than a tenth
-/// of it, and those that are below the floor. On the surface a chord of a quarter of the radius, which is
-/// more than any case moves in a frame of its own, is 0.8 % deep.
-std::uint32_t passed_through(const Model& model, const State& before, const State& after) {
-  std::uint32_t count = 0;
-  for (std::size_t p = 0; p < after.position.size(); ++p) {
-    if (model.relative_inverse_mass[p] == 0.0) continue;
-    bool through = model.scene.floor && after.position[p].y < model.scene.floor->height_m - 1e-3;
-    for (const SphereSection& sphere : model.scene.spheres) {
-      const glm::dvec3 a = before.position[p] - sphere_center_at(sphere, before.time_s);
-      const glm::dvec3 b = after.position[p] - sphere_center_at(sphere, after.time_s);
-      const glm::dvec3 way = b - a;
-      const double squared = glm::dot(way, way);
-      const double at = squared > 0.0 ? std::clamp(-glm::dot(a, way) / squared, 0.0, 1.0) : 0.0;
-      through = through || (squared < std::pow(0.25 * sphere.radius_m, 2) &&
-                            glm::length(a + at * way) < 0.9 * sphere.radius_m);
-    }
-    count += through ? 1 : 0;
-  }
-  return count;
 }
 
 /// The scene's material at step k of a sweep: each of three parameters goes up and down over its decades, at
@@ -127,8 +93,10 @@ void use_hand(const HardCase& c, const Solver& solver, const MakeSimulation& mak
               Watcher& watcher, std::unique_ptr<Simulation>& simulation) {
   if (c.hand == Hand::none) return;
   const Model& model = simulation->model();
-  const bool sweeps = c.hand == Hand::sweeps_parameters;
-  const Scene scene = sweeps ? swept(model.scene, k) : regridded(model.scene, k);
+  const bool sweeps = c.hand != Hand::changes_resolution;
+  const Scene scene = c.hand == Hand::sweeps_parameters ? swept(model.scene, k)
+                      : c.hand == Hand::sweeps_effect   ? with_swept_effect(model.scene, c.effect, k)
+                                                        : regridded(model.scene, k);
   if (!sweeps && scene.cloth.resolution == model.scene.cloth.resolution) return;
   auto next = make(build_model(scene), solver);
   const State before = simulation->read(), after = carry_state(model, before, next->model());
@@ -143,8 +111,9 @@ Model hard_model(const HardCase& c, std::span<const std::string> more) {
   SceneOverrides overrides;
   overrides.set = c.set;
   overrides.set.insert(overrides.set.end(), more.begin(), more.end());
-  const Model model =
-      build_model(load_scene(WEFT_SOURCE_DIR "/tests/hard_cases/" + c.scene + ".toml", overrides).scene);
+  Scene scene = load_scene(WEFT_SOURCE_DIR "/tests/hard_cases/" + c.scene + ".toml", overrides).scene;
+  if (!c.effect.empty()) scene = above_effect(std::move(scene), c.effect);
+  const Model model = build_model(scene);
   if (c.masses == Masses::scene) return model;
   std::vector<double> scale(model.grid.count(), 1.0);
   const std::uint32_t middle = model.grid.index(model.grid.nx / 2, model.grid.ny / 2);
@@ -169,7 +138,8 @@ State hard_start(const HardCase& c, const Model& model) {
     if (c.start == Start::box) x = center + 0.5 * model.grid.width_m() * random_vector(random);
     if (c.start == Start::inside_out && (i ^ 1u) < model.grid.nx)
       x.x += ((i & 1u) == 0 ? 1.0 : -1.0) * model.grid.spacing_m;
-    if (c.start == Start::falling_30) state.velocity[p] = {0.0, -30.0, 0.0};
+    if (c.start == Start::falling_30 && model.relative_inverse_mass[p] != 0.0)
+      state.velocity[p] = {0.0, -30.0, 0.0};
     if (c.start == Start::swinging) state.velocity[p] = 2.0 * random_vector(random);
   }
   return state;

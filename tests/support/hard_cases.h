@@ -16,7 +16,7 @@ enum class Start { scene, point, speck, line, box, inside_out, falling_30, swing
 enum class Masses { scene, one_heavy, one_light, checkered };
 
 /// What happens before a frame, other than what the scene says.
-enum class Hand { none, sweeps_parameters, changes_resolution };
+enum class Hand { none, sweeps_parameters, changes_resolution, sweeps_effect };
 
 struct HardCase {
   std::string name;                   ///< a word
@@ -28,13 +28,21 @@ struct HardCase {
   Masses masses = Masses::scene;
   double mass_ratio = 1.0;
   Hand hand = Hand::none;
-  bool closed = false;        ///< nothing moves and no wind blows: no energy may come from anywhere
-  bool one_collider = false;  ///< every particle can be outside: it has to be
-  bool quick = true;          ///< a second or less with the default solver
+  std::string effect = {};  ///< of scene/effects.h, that is added to the scene; empty: none
+  std::string solver = {};  ///< that is held to the promises; empty: leapfrog
+  bool closed = false;      ///< nothing moves and no wind blows: no energy may come from anywhere
+  /// Of what was stored or could fall. Leapfrog conserves a neighbour of the energy, not the energy itself.
+  double energy_tolerance = 0.01;
+  bool one_collider = false;    ///< every particle can be outside: it has to be
+  bool quick = true;            ///< a second or less with the default solver
+  bool quick_on_device = true;  ///< likewise on a software device; else the long tests run it there
 };
 
 /// Every case, in the order of docs/stability.md.
 std::span<const HardCase> hard_cases();
+
+/// The solver that a case holds to the promises: leapfrog, but where only another has the effect.
+const Solver& held_solver(const HardCase&);
 
 struct Outcome {
   std::optional<Divergence> divergence;
