@@ -1,4 +1,5 @@
-// Whether the triangles A and B of the cell that particle p names are whole: always, but where links break (TORN).
+// Whether the triangles A and B of the cell that particle p names are whole: always, but where links break
+// (TORN).
 #ifdef TORN
 #include "links.h"
 

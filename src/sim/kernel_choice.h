@@ -48,6 +48,9 @@ KernelChoice choose_kernel(gpu::Device&, const Model&, const Plan&, std::shared_
 /// Beside the pipeline cache, one a device and driver; empty where there is no cache folder.
 std::filesystem::path kernel_memory_file(gpu::Device&);
 
+/// Whether a trial may still find a faster kernel than the choice, and can be remembered.
+bool is_worth_searching(gpu::Device&, const Plan&, const KernelChoice&);
+
 /// "strip 4x16 (trial: strip 4x16 6.1, texel 1x16 11.2 ns)": for people.
 std::string describe(const KernelChoice&);
 

@@ -98,7 +98,8 @@ Application::Application(const ViewerOptions& options)
       gui_(device_, window_, swapchain_, ui_scale_),
       painter_(device_, swapchain_, gui_, options.samples),
       controls_(window_, gui_),
-      costs_(device_) {
+      costs_(device_),
+      finder_(device_, !device_.info().software || options.kernel == "auto") {
   constant_facts_.device = device_.info().name;
   constant_facts_.software = device_.info().software;
   constant_facts_.samples = static_cast<std::uint32_t>(painter_.samples());
@@ -150,6 +151,7 @@ void Application::run() {
     if (!pending_) attempt([&] { running_.keep_pace(); });
     if (!running_.paused()) running_.measure();
     attempt([&] { costs_.follow(running_); });
+    attempt([&] { find_kernel(elapsed_s); });
     gui_.begin_frame();
     const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
     show_accuracy();
@@ -358,6 +360,12 @@ void Application::pace() {
   std::this_thread::sleep_until(next_picture_);
 }
 
+void Application::find_kernel(double elapsed_s) {
+  if (pending_ || running_.hand().holds()) return;
+  const std::string found = finder_.follow(running_, elapsed_s);
+  if (!found.empty()) view_.say(found, 6.0);
+}
+
 PanelFacts Application::facts() const {
   PanelFacts facts = constant_facts_;
   facts.pictures_per_s = pictures_per_s_;
@@ -366,6 +374,7 @@ PanelFacts Application::facts() const {
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
   facts.costs = &costs_;
+  facts.trying = finder_.trying();
   if (running_.on_gpu() != nullptr)
     facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
   if (facts.validating) facts.validation_messages = device_.validation_messages().size();

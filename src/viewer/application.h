@@ -12,6 +12,7 @@
 #include "viewer/controls.h"
 #include "viewer/effect_costs.h"
 #include "viewer/gui.h"
+#include "viewer/kernel_finder.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
 #include "viewer/running_scene.h"
@@ -38,6 +39,7 @@ class Application {
   void show_accuracy();
   void paint();
   void pace();
+  void find_kernel(double elapsed_s);
   void open(const std::string& which);
   void reload();
   void apply_pending(bool edit_ended);
@@ -68,6 +70,7 @@ class Application {
   ViewState view_;
   PanelFacts constant_facts_;
   EffectCosts costs_;
+  KernelFinder finder_;
   std::unique_ptr<Accuracy> accuracy_;  // while its panel is open
   std::array<float, 4> resolution_slider_{}, error_slider_{}, study_button_{};
   std::optional<Scene> pending_;

@@ -36,7 +36,7 @@ void Application::log() {
       "overlay={} "
       "timings={} accuracy={} study={} solver={} panels={} quit_question={} filming={} error={} hand={} "
       "hand_pins={} pins={} minimised={} "
-      "size={}x{} rebuilds={}",
+      "size={}x{} rebuilds={} kernel={}",
       running_.which(), flag(running_.on_gpu() == nullptr), flag(running_.paused()), running_.model().grid.nx,
       running_.pacer().speed(), running_.scene().material.membrane_n_m,
       flag(view_.look.shading == Shading::smooth), flag(view_.look.wireframe), flag(view_.look.heat),
@@ -44,7 +44,8 @@ void Application::log() {
       accuracy_text(accuracy_.get()), running_.scene().solver.name, flag(view_.panels), flag(view_.ask_quit),
       flag(view_.filming), flag(view_.message && view_.message->is_error), flag(running_.hand().holds()),
       running_.hand_pins().size(), running_.scene().pins.size(), flag(window_.minimised()),
-      window_.framebuffer().width, window_.framebuffer().height, rebuilds_);
+      window_.framebuffer().width, window_.framebuffer().height, rebuilds_,
+      running_.on_gpu() != nullptr ? running_.on_gpu()->kernel().how : "native");
   const std::string figures = fmt::format(
       "time_s={:.6f} real_time={:.6f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
       "scale={:.2f} "

@@ -159,6 +159,7 @@ void kernel_choice(const RunningScene& running, const PanelFacts& facts, PanelWi
     ImGui::EndCombo();
   }
   tooltip("how the device computes a substep; all end in the same bits and differ in speed");
+  if (!facts.trying.empty()) ImGui::TextDisabled("timing %s", facts.trying.c_str());
 }
 
 /// Whether XPBD may take over, and why it would not.

@@ -40,6 +40,7 @@ struct PanelFacts {
   std::string present_mode;
   std::vector<std::string> present_modes;
   std::vector<std::string> kernels;  ///< that fit the device and the cloth
+  std::string trying;                ///< the kernel that a trial times now; empty when none
   std::vector<AssetInfo> scenes, materials;
   bool validating = false;
   std::size_t validation_messages = 0;

@@ -10,11 +10,12 @@
 namespace weft {
 
 struct ViewerOptions {
-  std::string scene = "1";     ///< number, name in assets/scenes, or path
-  SceneOverrides overrides;    ///< changes on top of every scene opened, `--set` and its shorthands
-  std::string device;          ///< part of a name, index or UUID, or native; empty: the best
-                               ///< there is, and native where that is a software one
-  std::string kernel;          ///< of the pass integrate, one of kernel_names(); empty: auto, without a trial
+  std::string scene = "1";   ///< number, name in assets/scenes, or path
+  SceneOverrides overrides;  ///< changes on top of every scene opened, `--set` and its shorthands
+  std::string device;        ///< part of a name, index or UUID, or native; empty: the best
+                             ///< there is, and native where that is a software one
+  std::string kernel;  ///< of the pass integrate, one of kernel_names(); empty: auto; "auto" has a software
+                       ///< device try them too
   bool validation = false;     ///< core and synchronization validation; messages are counted and shown
   bool force_staging = false;  ///< pretend no device memory is host visible
   std::filesystem::path
