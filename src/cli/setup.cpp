@@ -61,6 +61,9 @@ Scene open_scene(const Options& o, const std::string& number_name_or_path) {
 Setup set_up(const Options& o, const std::string& number_name_or_path) {
   const Scene scene = open_scene(o, number_name_or_path);
   Setup setup{build_model(scene), &find_solver(scene.solver.name)};
+  if (!setup.solver->instability.empty())
+    note(o, fmt::format("warning: {}: solver.name is {}, which {} (leapfrog does not)", scene.source,
+                        setup.solver->name, setup.solver->instability));
   require_device_solver(o, scene, *setup.solver);
   return setup;
 }

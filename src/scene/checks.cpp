@@ -1,4 +1,4 @@
-// What single keys cannot tell: required keys, contradictions, and starts that look like mistakes.
+// What single keys cannot tell: required keys and contradictions.
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
@@ -9,9 +9,6 @@
 
 namespace weft {
 namespace {
-
-// A cloth laid exactly on the floor is no mistake, though its last bit may be below.
-constexpr double kRoundOff_m = 1e-9;
 
 void check_required(const Draft& draft) {
   for (const Parameter& parameter : parameters()) {
@@ -177,26 +174,6 @@ void check_scene(const Draft& draft) {
   check_solids(draft);
   check_meshes(draft);
   check_floor(draft);
-}
-
-std::vector<std::string> scene_warnings(const Draft& draft) {
-  const Scene& scene = draft.scene;
-  const double half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
-  std::vector<std::string> warnings;
-  if (scene.air && scene.wind && scene.air->drag_kg_m2_s == 0.0 && !scene.aerodynamics)
-    warnings.push_back(
-        fmt::format("{}: air.drag is 0, so the wind moves nothing", draft.place_of({"air"}, "drag")));
-  if (!scene.floor && scene.spheres.empty()) return warnings;
-
-  const StartDepths depths = start_depths(scene, half_thickness_m);
-  if (depths.floor_m > kRoundOff_m)
-    warnings.push_back(fmt::format("{}: the cloth starts up to {} m below the floor; raise cloth.center",
-                                   draft.place_of({"floor"}, "height"), short_number(depths.floor_m)));
-  for (std::size_t k = 0; k < depths.sphere_m.size(); ++k)
-    if (depths.sphere_m[k] > kRoundOff_m)
-      warnings.push_back(fmt::format("{}: the cloth starts up to {} m inside spheres.{}; move one of them",
-                                     draft.place_of({"spheres", k}), short_number(depths.sphere_m[k]), k));
-  return warnings;
 }
 
 }  // namespace weft

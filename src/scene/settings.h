@@ -76,7 +76,8 @@ std::optional<std::string> preset_override(const std::string& text);
 /// Refuses what is absent and required, and what contradicts itself.
 void check_scene(const Draft& draft);
 
-/// What is allowed but looks like a mistake, one sentence each: a start inside a sphere or below the floor.
+/// What is allowed but looks like a mistake, one sentence each: a start inside a sphere or below
+/// the floor, pulled apart by pins, or too far away for a float.
 std::vector<std::string> scene_warnings(const Draft& draft);
 
 /// Parses TOML; a mistake of syntax becomes an Error with its line.

@@ -7,9 +7,16 @@
 
 #include "core/text.h"
 #include "model/measures.h"
+#include "model/speed_budget.h"
 #include "shared/watch.h"
 
 namespace weft {
+namespace {
+
+/// What is allowed, of what the scene can have given.
+constexpr double kEnergyMargin = SpeedBudget::kMargin * SpeedBudget::kMargin;
+
+}  // namespace
 
 std::optional<Divergence> divergence_in(std::span<const std::uint32_t> watch_state) {
   if (watch_state.empty() || watch_state[shared::kWatchStopped] == 0) return std::nullopt;
@@ -20,7 +27,7 @@ std::optional<Divergence> divergence_in(std::span<const std::uint32_t> watch_sta
     found.speed_m_s = std::numeric_limits<double>::quiet_NaN();
   } else {
     found.speed_m_s = std::sqrt(std::bit_cast<float>(watch_state[shared::kWatchFastest]));
-    found.energy_share = double(watch_state[shared::kWatchEnergy]) / shared::kWatchWhole;
+    found.energy_share = kEnergyMargin * double(watch_state[shared::kWatchEnergy]) / shared::kWatchWhole;
   }
   return found;
 }
@@ -60,7 +67,8 @@ std::string what_happened(const Divergence& found, const Model& model) {
   return fmt::format(
       "{} moves at {:.3g} m/s, the fastest of a cloth with {}{:.3g} times the most kinetic energy that its "
       "scene can have given it",
-      who, found.speed_m_s, found.energy_share > 1.99 ? "more than " : "", found.energy_share);
+      who, found.speed_m_s, found.energy_share > 1.99 * kEnergyMargin ? "more than " : "",
+      found.energy_share);
 }
 
 Error divergence_error(const Divergence& found, const Model& model, const Plan& plan,

@@ -15,7 +15,8 @@ struct Divergence {
   std::uint64_t frame = 0;     ///< the first unsound one, counted since the latest state was written; 0: that
   std::uint32_t particle = 0;  ///< the first that is not finite, else the fastest
   double speed_m_s = 0.0;      ///< its speed; NaN when it is not finite
-  double energy_share = 0.0;   ///< kinetic energy over what the scene can have given; 0 when not finite
+  double energy_share = 0.0;   ///< kinetic energy over what the scene can have given, of which 16 times is
+                               ///< allowed and 32 times told apart; 0 when not finite
   double time_s = 0.0;         ///< at the frame's end
   std::uint32_t substeps = 0;  ///< that its frame took
   double frame_s = 0.0;        ///< and how long that frame was

@@ -86,6 +86,30 @@ TEST(Checks, WarnsOfAStartInsideASphere) {
   EXPECT_TRUE(read(scene + "[0, -0.51, 0]\n").warnings.empty());
 }
 
+// 16 rows over 1 m: a cell is 67 mm.
+TEST(Checks, WarnsOfAFirstKeyFarAway) {
+  const std::string scene = "[cloth]\nresolution = 16\n[[pins]]\nat = [0, 0]\nkeys = [{ time = ";
+  const LoadedScene loaded = read(scene + "0, offset = [0, 3, 4] }]\n");
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_TRUE(contains(loaded.warnings[0], "scene.toml:5: pins.0.keys begins 5 m") &&
+              contains(loaded.warnings[0], "75 cells"))
+      << loaded.warnings[0];
+  EXPECT_TRUE(read(scene + "0, offset = [0, 0.05, 0] }]\n").warnings.empty());
+}
+
+// At 1000 m a float's last bit is 2⁻¹⁴ m = 61 µm, at 500 m half of that; a thousandth of a cell of 1 m/19 is
+// 53 µm. A double's is a billionth.
+TEST(Checks, WarnsWhereAFloatStrainsTheCloth) {
+  const std::string scene = "[cloth]\nresolution = 20\ncenter = [";
+  const LoadedScene loaded = read(scene + "1000, 0, 0]\n");
+  ASSERT_EQ(loaded.warnings.size(), 1u);
+  EXPECT_TRUE(contains(loaded.warnings[0], "scene.toml:3: the cloth comes up to 1000.7") &&
+              contains(loaded.warnings[0], "6.1") && contains(loaded.warnings[0], "f64"))
+      << loaded.warnings[0];
+  EXPECT_TRUE(read(scene + "500, 0, 0]\n").warnings.empty());
+  EXPECT_TRUE(read(scene + "1000, 0, 0]\n[solver]\nprecision = \"f64\"\n").warnings.empty());
+}
+
 // The lowest particle of a horizontal cloth with imperfection d is d·min(sin·sin) below the middle; half the
 // thickness comes on top.
 TEST(Checks, DepthCountsImperfectionAndThickness) {
