@@ -35,6 +35,18 @@ std::uint32_t parse_scene_count(std::string_view option, std::string_view text, 
                      static_cast<std::uint32_t>(row.maximum), cure);
 }
 
+/// One of the words that a scene key may be.
+std::string parse_scene_word(std::string_view option, const std::string& text, std::string_view section,
+                             std::string_view key) {
+  std::vector<std::string_view> words;
+  for (std::string_view left = scene_key(section, key).words; !left.empty();) {
+    words.push_back(left.substr(0, left.find('|')));
+    left.remove_prefix(std::min(words.back().size() + 1, left.size()));
+  }
+  parse_word(option, text, words);
+  return text;
+}
+
 void add_text(CLI::App& app, const std::string& name, const std::string& about, const std::string& value_name,
               const std::function<void(const std::string&)>& take) {
   app.add_option_function<std::string>(name, take, about)->type_name(value_name);
@@ -46,8 +58,9 @@ void add_scene_key_options(CLI::App& app, Options& o) {
   });
   add_text(app, "--material", "a preset of `weft materials` instead of the scene's", "NAME",
            [&o](const std::string& text) { o.material = text; });
-  add_text(app, "--solver", "one of `weft solvers`", "NAME",
-           [&o](const std::string& text) { o.solver = text; });
+  add_text(app, "--solver", "one of `weft solvers`", "NAME", [&o](const std::string& text) {
+    o.solver = parse_scene_word("--solver", text, "solver", "name");
+  });
   add_text(app, "--substeps", "substeps a frame, or auto (from the stable step)", "N|auto",
            [&o](const std::string& text) {
              o.substeps = text == "auto" ? 0

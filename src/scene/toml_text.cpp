@@ -14,6 +14,15 @@ bool is_key_start(char c) {
          c == '"' || c == '\'';
 }
 
+/// Names the place, shows the line as it stands there, and says the rule and how lines are written.
+Error not_toml(std::string_view text, std::string_view name, int line, std::string_view rule) {
+  for (int k = 1; k < line; ++k) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const std::string_view shown = text.substr(0, text.find_first_of("\r\n"));
+  return error(Exit::usage,
+               "{}:{}: {} is not TOML: {}; write [section], key = 1.5, key = \"text\" or key = [1, 2, 3]",
+               name, line, in_quotes(shown, 60), rule);
+}
+
 /// Walks over TOML text outside of strings and comments. toml++ 3.3 assumes, without looking, that what
 /// stands there is ASCII, that a name follows a section's '[', and that no '}' ends an array; in its release
 /// build a file that breaks this is undefined behaviour (found by fuzzing). The walk refuses exactly such
@@ -44,9 +53,7 @@ class Walk {
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view rule) const {
-    throw error(Exit::usage, "{}:{}: this is not TOML: {}", name_, line_, rule);
-  }
+  [[noreturn]] void refuse(std::string_view rule) const { throw not_toml(text_, name_, line_, rule); }
 
   void match_bracket(char c) {
     if (c == '[' || c == '{') open_ += c;
@@ -100,8 +107,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& mistake) {
-    throw error(Exit::usage, "{}:{}: this is not TOML: {}", name, mistake.source().begin.line,
-                mistake.description());
+    throw not_toml(text, name, static_cast<int>(mistake.source().begin.line), mistake.description());
   }
 }
 

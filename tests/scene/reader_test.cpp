@@ -158,7 +158,8 @@ TEST(Reader, RefusesWrongShapes) {
 }
 
 TEST(Reader, SyntaxMistakesCarryTheirLine) {
-  expect_refused("[cloth]\nwidth = \n", {"scene.toml:2", "not TOML"});
+  expect_refused("[cloth]\nwidth = \n",
+                 {"scene.toml:2: \"width = \"", "not TOML", "write [section], key = 1.5"});
   expect_refused("[cloth]\nwidth = 1\nwidth = 2\n", {"scene.toml:3", "width"});
   expect_refused("[cloth]\n[gravity]\n[cloth]\n", {"scene.toml:3"});
   expect_refused("[cloth]\nwidth = 1 2\n", {"scene.toml:2"});
