@@ -64,7 +64,8 @@ TEST(Usage, UnknownWordsSuggestTheNearest) {
   expect_refused({"simulate", "1", "--resolutoin", "9"}, {"--resolutoin", "did you mean --resolution?"});
   expect_refused({"simulate", "1", "--format", "jsn"},
                  {"--format", "jsn", "human, json", "did you mean json?"});
-  expect_refused({"simulate", "1", "--solver", "leapfrg", "--device", "cpu"}, {"--solver is \"leapfrg\"", "did you mean leapfrog"});
+  expect_refused({"simulate", "1", "--solver", "leapfrg", "--device", "cpu"},
+                 {"--solver is \"leapfrg\"", "did you mean leapfrog"});
   expect_refused({"simulate", "1", "--material", "denin", "--device", "cpu"}, {"denin", "denim"});
   expect_refused({"simulate", "two-cornes", "--device", "cpu"}, {"two-cornes", "two-corners"});
   expect_refused({"simulate", "7"}, {"7", "1"});
