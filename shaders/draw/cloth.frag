@@ -12,10 +12,15 @@ layout(location = 0) in vec3 world_m;
 layout(location = 1) in vec3 world_normal;
 layout(location = 2) in vec2 flat_m;
 layout(location = 3) in float strain;
+layout(location = 4) flat in uint cloth;
 layout(location = 0) out vec4 color;
 
 const vec3 kFront = vec3(0.56, 0.050, 0.042), kFrontPrint = vec3(0.85, 0.60, 0.38);
 const vec3 kBack = vec3(0.74, 0.58, 0.36), kBackPrint = vec3(0.42, 0.17, 0.09);
+
+// Of further cloths, by turns.
+const vec3 kFurtherFront[3] = {vec3(0.045, 0.16, 0.36), vec3(0.10, 0.30, 0.13), vec3(0.62, 0.36, 0.04)};
+const vec3 kFurtherBack[3] = {vec3(0.38, 0.52, 0.66), vec3(0.50, 0.62, 0.40), vec3(0.80, 0.68, 0.42)};
 
 // Blue where compressed, white at rest, red where stretched.
 vec3 heat_color(float s) {
@@ -37,6 +42,7 @@ vec2 lines(vec2 x, float h, vec2 w) {
 // Fabric colour at a place of the flat cloth: soft gingham squares, fine printed lines, a hem.
 vec3 fabric(bool front) {
   vec3 base = front ? kFront : kBack, ink = front ? kFrontPrint : kBackPrint;
+  if (cloth > 0u) base = front ? kFurtherFront[(cloth - 1u) % 3u] : kFurtherBack[(cloth - 1u) % 3u];
   float size = max(view.cloth_m.x, view.cloth_m.y);
   vec2 square = flat_m / (size / 16.0), w = fwidth(square);
   base *= 1.0 + 0.26 * (filtered_checker(square, w) - 0.5);

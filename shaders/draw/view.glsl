@@ -8,6 +8,6 @@ layout(scalar, set = 0, binding = 0) uniform ViewBlock { View view; };
 // from pixel to pixel: their depths differ by up to 0.05 %, the first row, which falls last, nearest.
 vec4 cloth_in_clip(vec3 position, uint row) {
   vec4 place = view.clip * vec4(position, 1.0);
-  place.z *= 1.0 + 5e-4 * (1.0 - float(row) / float(view.ny));
+  place.z *= 1.0 + 5e-4 * (1.0 - float(row) / float(view.ny * view.cloths));
   return place;
 }

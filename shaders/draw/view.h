@@ -31,9 +31,10 @@ struct View {
   float heat_full;       // the strain that the heat map paints in full colour
   vec2 cloth_m;          // width and height of the flat cloth
   float spacing_m;       // edge of a cell
-  uint nx, ny;           // particles
+  uint nx, ny;           // particles of one cloth
   uint sphere_count;     // balls before this one are colliding spheres, the rest are pin heads
   uint ball_count;
+  uint cloths;
   vec3 floor_normal;      // unit vector
   vec4 balls[kMaxBalls];  // xyz = centre [m], w = drawn radius [m]
 };

@@ -15,11 +15,17 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
 
 layout(constant_id = 0) const bool anisotropic = false;
+#include "../shared/sheets.glsl"
 
 void main() {
   bool along_i = item < 3u;
-  uint colour = item % 3u, nx = params.nx, ny = params.ny;
+  uint colour = item % 3u, nx = params.nx, ny = rows_of_cloth(), first = 0u;
   uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
+  if (sheet_rows != 0u) {  // as many lanes as one cloth alone would have, then the next one's
+    uint lanes = along_i ? ny : (ny - colour) / 3u;
+    first = j / lanes * ny;
+    j = j % lanes;
+  }
   if (along_i)
     i = 3u * i + colour;
   else
@@ -30,7 +36,7 @@ void main() {
   uint warp = anisotropic && !along_i ? kConstraintRows : 0u;
   real compliance = constraints[kConstraintBend + (boundary ? 1u : 0u) + warp].y;
 
-  uint pa = j * nx + i, pb = pa + next, pc = pb + next;
+  uint pa = (first + j) * nx + i, pb = pa + next, pc = pb + next;
   real4 a = position_next[pa], b = position_next[pb], c = position_next[pc];
   precise real wa = a.w * params.inverse_mass_1_kg;
   precise real wb = b.w * params.inverse_mass_1_kg;

@@ -57,7 +57,8 @@ void main() {
   bool along_i = s.kind == kStructuralI || s.kind == kFlexI;
   bool along_j = s.kind == kStructuralJ || s.kind == kFlexJ;
   if (along_i || along_j) {
-    bool boundary = along_i ? (s.j == 0u || s.j + 1u == params.ny) : (s.i == 0u || s.i + 1u == params.nx);
+    bool on_row = s.j == 0u || s.j + 1u == rows_of_cloth(), on_column = s.i == 0u || s.i + 1u == params.nx;
+    bool boundary = along_i ? on_row : on_column;
     bool far = s.kind == kFlexI || s.kind == kFlexJ;
     row = (far ? kConstraintFlex : kConstraintStructural) + (boundary ? 1u : 0u);
     if (anisotropic && along_j) row += kConstraintRows;

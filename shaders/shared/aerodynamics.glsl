@@ -15,6 +15,7 @@ layout(constant_id = 2) const uint seed = 0u;
 #include "dot.glsl"
 #include "cross.glsl"
 #include "wind_noise.glsl"
+#include "sheets.glsl"
 #include "whole_triangles.glsl"
 
 struct Corner {
@@ -56,8 +57,8 @@ void add_triangle(Corner a, Corner b, Corner c, real3 w, real drag, real lift, i
 
 // The whole triangles in the order of docs/float-form.md "Vertex normals".
 Push3 air_force(uint i, uint j, Corner own, real3 w, real drag, real lift) {
-  uint nx = params.nx, p = j * nx + i;
-  bool left = i >= 1u, right = i + 1u < nx, up = j >= 1u, down = j + 1u < params.ny;
+  uint nx = params.nx, p = j * nx + i, own_j = own_row(j);
+  bool left = i >= 1u, right = i + 1u < nx, up = own_j >= 1u, down = own_j + 1u < rows_of_cloth();
   Corner l = corner_at(left ? p - 1u : p), r = corner_at(right ? p + 1u : p);
   Corner a = corner_at(up ? p - nx : p), b = corner_at(down ? p + nx : p);
   Corner ar = corner_at(up && right ? p - nx + 1u : p), bl = corner_at(down && left ? p + nx - 1u : p);

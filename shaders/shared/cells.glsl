@@ -1,6 +1,7 @@
 // Self-collision's grid and places: docs/float-form.md "Self-collision". The including pass includes
 // pass.glsl first.
 #include "collision.h"
+#include "sheets.glsl"
 
 READS(Collision, collision)
 
@@ -73,6 +74,7 @@ uint bucket_of(Cells c, ivec3 cell) {
 // The row of `limits` that holds for a pair of places.
 uint limit_row(Cells c, Own own, uint place) {
   uvec2 other = column_and_row(c, place);
+  if (sheet_rows != 0u && other.y / sheet_rows != own.j / sheet_rows) return c.limit_last;  // two cloths
   int di = min(abs(int(other.x) - int(own.i)), kOffsetMax);
   int dj = min(abs(int(other.y) - int(own.j)), kOffsetMax);
   return min(uint(di * di + dj * dj), c.limit_last);

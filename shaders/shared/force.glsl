@@ -8,6 +8,7 @@
 #endif
 
 #include "dot.glsl"
+#include "sheets.glsl"
 
 // One end of a pair.
 struct End {
@@ -73,7 +74,7 @@ Column column_at(uint i) {
   const real3 absent = real3(0.0);
   Column c;
   c.nx = params.nx;
-  c.ny = params.ny;
+  c.ny = rows_of_cloth();
   c.i = i;
   c.left = i >= 1u;
   c.right = i + 1u < c.nx;
@@ -100,7 +101,7 @@ Column column_at(uint i) {
 // What marching down a column carries from row to row: the particles that the next rows meet again, and the
 // forces already known. Named by their offset from the row's own particle.
 struct March {
-  uint j, p;
+  uint j, p;  // the row within its own cloth; the particle
   End own, down1, down2;  // (i, j), (i, j+1), (i, j+2)
   End left_up, left, left_down, right_up, right, right_down;
   real3 f01_up, f02_up1, f02_up2;  // f01(i, j-1), f02(i, j-1), f02(i, j-2)
@@ -120,13 +121,14 @@ real3 f02_of(Column c, uint j, End a, End b) {
   return pair_force(j + 2u < c.ny ? c.down2 : real3(0.0), a, b);
 }
 
-// Loads everything that row j needs and that the march does not load row by row.
-March march_from(Column c, uint j) {
+// Loads everything that a row, counted through all cloths, needs and that the march does not load row by row.
+March march_from(Column c, uint row) {
   const bool far_pairs = flex || bending;  // (2,0)-type pairs carry flex springs and folded bending
   const End nothing = End(real3(0.0), real3(0.0));
   March m;
+  uint j = own_row(row);
   m.j = j;
-  m.p = j * c.nx + c.i;
+  m.p = row * c.nx + c.i;
   bool up = j >= 1u, up2 = j >= 2u;
   m.own = end_at(m.p);
   End up1 = end_at(up ? m.p - c.nx : m.p);

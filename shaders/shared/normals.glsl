@@ -5,6 +5,7 @@ WRITES(real4, normal)
 
 layout(local_size_x = 64) in;
 
+#include "sheets.glsl"
 #include "whole_triangles.glsl"
 
 real3 cross_of(real3 p, real3 q, real3 r) {
@@ -17,8 +18,8 @@ real3 cross_of(real3 p, real3 q, real3 r) {
 void main() {
   uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y, nx = params.nx, ny = params.ny;
   if (i >= nx || j >= ny) return;
-  uint p = j * nx + i;
-  bool left = i >= 1u, right = i + 1u < nx, up = j >= 1u, down = j + 1u < ny;
+  uint p = j * nx + i, row = own_row(j);
+  bool left = i >= 1u, right = i + 1u < nx, up = row >= 1u, down = row + 1u < rows_of_cloth();
   real3 own = position[p].xyz;
   real3 east = position[right ? p + 1u : p].xyz;
   real3 west = position[left ? p - 1u : p].xyz;

@@ -6,6 +6,7 @@
 
 WEFT_SHARED_BEGIN
 
+WEFT_CONST uint kMaxCloths = 64u;              // documented limit of [cloth] and [[cloths]] together
 WEFT_CONST uint kMaxSpheres = 64u;             // documented limit of [[spheres]]
 WEFT_CONST uint kMaxSolids = 64u;              // documented limit of [[capsules]] and [[boxes]] together
 WEFT_CONST uint kMaxMeshes = 8u;               // documented limit of [[meshes]]
@@ -27,7 +28,7 @@ WEFT_REAL_STRUCT(Params) {
   real inverse_mass_1_kg;  // of an interior particle; position.w scales it (0 pinned, 1, 2 edge, 4 corner)
   real floor_height_m;     // the surface a particle rests on: floor plus half the cloth's thickness
   real floor_friction;
-  uint nx, ny;  // particles along i and j
+  uint nx, ny;  // particles along i; rows of all cloths together, one below the other (sheets.glsl)
   uint sphere_count;
   uint row_stride;  // real4s from one row of the substep table to the next
   // What watch.h's kWatchWhole is of m/m0·v²; the host writes it each frame. 0: energy is not looked at.

@@ -55,15 +55,19 @@ glm::dvec3 blend(const Taps& taps, const glm::dvec3* samples, std::size_t stride
   return sum;
 }
 
+/// Cloth by cloth; a cloth that `from` has not got is zero.
 Field resample(const Field& field, const Grid& from, const Grid& to) {
   const std::vector<Taps> along_i = all_taps(from.nx, to.nx), along_j = all_taps(from.ny, to.ny);
   Field rows(std::size_t{to.nx} * from.ny);
-  for (std::uint32_t j = 0; j < from.ny; ++j)
-    for (std::uint32_t i = 0; i < to.nx; ++i)
-      rows[std::size_t{j} * to.nx + i] = blend(along_i[i], &field[std::size_t{j} * from.nx], 1);
-  Field result(to.count());
-  for (std::uint32_t j = 0; j < to.ny; ++j)
-    for (std::uint32_t i = 0; i < to.nx; ++i) result[to.index(i, j)] = blend(along_j[j], &rows[i], to.nx);
+  Field result(to.count(), glm::dvec3(0.0));
+  for (std::uint32_t cloth = 0; cloth < std::min(from.cloths, to.cloths); ++cloth) {
+    for (std::uint32_t j = 0; j < from.ny; ++j)
+      for (std::uint32_t i = 0; i < to.nx; ++i)
+        rows[std::size_t{j} * to.nx + i] = blend(along_i[i], &field[from.index(0, cloth * from.ny + j)], 1);
+    for (std::uint32_t j = 0; j < to.ny; ++j)
+      for (std::uint32_t i = 0; i < to.nx; ++i)
+        result[to.index(i, cloth * to.ny + j)] = blend(along_j[j], &rows[i], to.nx);
+  }
   return result;
 }
 
@@ -74,20 +78,22 @@ std::vector<std::uint32_t> pinned(const Model& model, double time_s) {
   return list;
 }
 
-glm::dvec2 fraction(const Grid& grid, std::uint32_t particle) {
+/// x and y on the flat cloth, and which cloth, which is farther from any other than a pin reaches.
+glm::dvec3 fraction(const Grid& grid, std::uint32_t particle) {
+  const std::uint32_t row = particle / grid.nx;
   return {static_cast<double>(particle % grid.nx) / (grid.nx - 1),
-          static_cast<double>(particle / grid.nx) / (grid.ny - 1)};
+          static_cast<double>(grid.own_row(row)) / (grid.ny - 1), 4.0 * (row / grid.ny)};
 }
 
 /// The pinned particle of `from` nearest on the flat cloth, if one is within a cell of either grid (or the
 /// same pin's radius): further away it is another pin.
-std::uint32_t nearest(const std::vector<std::uint32_t>& candidates, const Grid& grid, glm::dvec2 place,
+std::uint32_t nearest(const std::vector<std::uint32_t>& candidates, const Grid& grid, glm::dvec3 place,
                       double reach) {
   std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
   double best_distance = reach * reach;
   for (const std::uint32_t candidate : candidates) {
-    const glm::dvec2 apart = fraction(grid, candidate) - place;
-    const double distance = apart.x * apart.x + apart.y * apart.y;
+    const glm::dvec3 apart = fraction(grid, candidate) - place;
+    const double distance = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
     if (distance > best_distance) continue;
     best = candidate;
     best_distance = distance;
@@ -95,7 +101,7 @@ std::uint32_t nearest(const std::vector<std::uint32_t>& candidates, const Grid& 
   return best;
 }
 
-bool same_grid(const Grid& a, const Grid& b) { return a.nx == b.nx && a.ny == b.ny; }
+bool same_grid(const Grid& a, const Grid& b) { return a.nx == b.nx && a.ny == b.ny && a.cloths == b.cloths; }
 
 }  // namespace
 

@@ -23,13 +23,13 @@ std::string place(const Scene& scene) { return scene.source.empty() ? "scene" : 
 /// m0/m of a free particle: 1/(e(i)·e(j)).
 std::vector<double> relative_inverse_masses(const Grid& grid) {
   std::vector<double> relative(grid.count());
-  for (std::uint32_t j = 0; j < grid.ny; ++j)
+  for (std::uint32_t j = 0; j < grid.rows(); ++j)
     for (std::uint32_t i = 0; i < grid.nx; ++i)
-      relative[grid.index(i, j)] = 1.0 / (line_weight(i, grid.nx) * line_weight(j, grid.ny));
+      relative[grid.index(i, j)] = 1.0 / (line_weight(i, grid.nx) * line_weight(grid.own_row(j), grid.ny));
   return relative;
 }
 
-/// Calls visit(particle) for every one within the radius of the pin, on the flat cloth. Returns how many.
+/// Calls visit(particle) for every one within the radius of the pin, on its flat cloth. Returns how many.
 template <class Visit>
 std::uint64_t for_each_held(const PinSection& pin, const Grid& grid, Visit&& visit) {
   const double x_m = pin.at.x * grid.width_m(), y_m = pin.at.y * grid.height_m();
@@ -46,7 +46,7 @@ std::uint64_t for_each_held(const PinSection& pin, const Grid& grid, Visit&& vis
     for (std::uint32_t i = first(x_m); i <= last(x_m, grid.nx); ++i) {
       const double dx_m = i * grid.spacing_m - x_m, dy_m = j * grid.spacing_m - y_m;
       if (dx_m * dx_m + dy_m * dy_m > reach_m * reach_m) continue;
-      visit(grid.index(i, j));
+      visit(grid.index(i, pin.cloth * grid.ny + j));
       ++held;
     }
   }
@@ -56,6 +56,10 @@ std::uint64_t for_each_held(const PinSection& pin, const Grid& grid, Visit&& vis
 void apply_pins(const Scene& scene, const Grid& grid, std::vector<double>& relative) {
   for (std::size_t p = 0; p < scene.pins.size(); ++p) {
     const PinSection& pin = scene.pins[p];
+    if (pin.cloth >= grid.cloths)
+      throw error(Exit::usage,
+                  "{}: pins[{}] holds cloth {}; it must be 0 to {} (add the cloth, or remove the pin)",
+                  place(scene), p, pin.cloth, grid.cloths - 1);
     if (for_each_held(pin, grid, [&](std::uint32_t particle) { relative[particle] = 0.0; }) == 0)
       throw error(Exit::usage,
                   "{}: pins[{}] at ({}, {}) with radius {} m holds no particle; a radius of {} m always does",
@@ -63,13 +67,9 @@ void apply_pins(const Scene& scene, const Grid& grid, std::vector<double>& relat
   }
 }
 
-State flat_state(const Model& model) {
-  const Grid& grid = model.grid;
-  const ClothSection& cloth = model.scene.cloth;
+/// Puts the particles of one cloth, whose rows begin at `first`.
+void lay_flat(const Grid& grid, const ClothSection& cloth, std::uint32_t first, State& state) {
   const bool vertical = cloth.orientation == Orientation::vertical;
-  State state;
-  state.position.resize(grid.count());
-  state.velocity.assign(grid.count(), glm::dvec3(0.0));
   constexpr double kPi = std::numbers::pi;
   for (std::uint32_t j = 0; j < grid.ny; ++j) {
     const double s = j * grid.spacing_m, wave_j = std::sin(2.0 * kPi * j / (grid.ny - 1) + 0.9);
@@ -78,9 +78,18 @@ State flat_state(const Model& model) {
       const double lift = cloth.imperfection_m * std::sin(3.0 * kPi * i / (grid.nx - 1) + 0.4) * wave_j;
       const glm::dvec3 offset = vertical ? glm::dvec3(u, 0.5 * grid.height_m() - s, lift)
                                          : glm::dvec3(u, lift, s - 0.5 * grid.height_m());
-      state.position[grid.index(i, j)] = cloth.center_m + offset;
+      state.position[grid.index(i, first + j)] = cloth.center_m + offset;
     }
   }
+}
+
+State flat_state(const Model& model) {
+  const Grid& grid = model.grid;
+  State state;
+  state.position.resize(grid.count());
+  state.velocity.assign(grid.count(), glm::dvec3(0.0));
+  for (std::uint32_t cloth = 0; cloth < grid.cloths; ++cloth)
+    lay_flat(grid, cloth_of(model.scene, cloth), cloth * grid.ny, state);
   return state;
 }
 
@@ -150,12 +159,14 @@ Grid build_grid(const Scene& scene) {
     throw error(Exit::usage,
                 "{}: cloth.height is {} m, less than half a cell of {} m; raise it or cloth.resolution",
                 place(scene), cloth.height_m, spacing_m);
-  if ((cells + 1.0) * cloth.resolution > static_cast<double>(kParticlesMax))
+  const std::uint32_t cloths = cloth_count(scene);
+  if ((cells + 1.0) * cloth.resolution * cloths > static_cast<double>(kParticlesMax))
     throw error(
         Exit::usage,
-        "{}: cloth.resolution is {}, which makes {} x {} particles; at most {} are possible (lower it)",
-        place(scene), cloth.resolution, cloth.resolution, cells + 1.0, kParticlesMax);
-  return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m};
+        "{}: cloth.resolution is {}, which makes {} x {} particles{}; at most {} are possible (lower it)",
+        place(scene), cloth.resolution, cloth.resolution, cells + 1.0,
+        cloths > 1 ? fmt::format(" in each of {} cloths", cloths) : "", kParticlesMax);
+  return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m, cloths};
 }
 
 Model build_model(const Scene& scene) {

@@ -12,11 +12,15 @@
 
 namespace weft {
 
-/// The rectangular particle grid. Particle (i, j) has index j·nx + i; row 0 is the top edge.
+/// The rectangular particle grid. Particle (i, j) has index j·nx + i; row 0 is the top edge. Several cloths
+/// stand one below the other: the k-th has rows k·ny to (k + 1)·ny − 1, and nothing joins two of them.
 struct Grid {
-  std::uint32_t nx = 0, ny = 0;
-  double spacing_m = 0.0;  ///< a, the edge of a square cell
-  std::uint32_t count() const { return nx * ny; }
+  std::uint32_t nx = 0, ny = 0;  ///< of one cloth
+  double spacing_m = 0.0;        ///< a, the edge of a square cell
+  std::uint32_t cloths = 1;
+  std::uint32_t rows() const { return ny * cloths; }  ///< of all cloths
+  std::uint32_t count() const { return nx * rows(); }
+  std::uint32_t own_row(std::uint32_t row) const { return row % ny; }  ///< of a row's own cloth
   std::uint32_t index(std::uint32_t i, std::uint32_t j) const { return j * nx + i; }
   double width_m() const { return spacing_m * (nx - 1); }
   double height_m() const { return spacing_m * (ny - 1); }  ///< the real height

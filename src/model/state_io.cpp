@@ -23,7 +23,8 @@ constexpr std::string_view kCsvHeader = "i,j,x,y,z,vx,vy,vz";
 /// is torn is left out.
 template <class Visit>
 void for_each_triangle(const Grid& grid, std::span<const std::uint32_t> links, Visit&& visit) {
-  for (std::uint32_t j = 0; j + 1 < grid.ny; ++j) {
+  for (std::uint32_t j = 0; j + 1 < grid.rows(); ++j) {
+    if (grid.own_row(j) + 1 == grid.ny) continue;  // below it is another cloth
     for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
       const std::uint32_t east = grid.index(i + 1, j), south = grid.index(i, j + 1);
       const std::uint32_t own = grid.index(i, j);
@@ -125,7 +126,7 @@ State read_csv(const std::filesystem::path& file, const Grid& grid) {
     const std::size_t p = state.position.size(), i = p % grid.nx, j = p / grid.nx;
     if (p >= grid.count() || row[0] != double(i) || row[1] != double(j))
       throw error(Exit::usage, "{}: particle ({}, {}) is out of order for a cloth of {} x {}", place, row[0],
-                  row[1], grid.nx, grid.ny);
+                  row[1], grid.nx, grid.rows());
     state.position.emplace_back(row[2], row[3], row[4]);
     state.velocity.emplace_back(row[5], row[6], row[7]);
   }
@@ -173,9 +174,10 @@ void write_obj(const std::filesystem::path& file, const Model& model, const Stat
   TextFile out(file);
   out.print("o cloth\n");
   for (const glm::dvec3& x : state.position) out.print("v {:.9g} {:.9g} {:.9g}\n", x.x, x.y, x.z);
-  for (std::uint32_t j = 0; j < grid.ny; ++j)
+  for (std::uint32_t j = 0; j < grid.rows(); ++j)
     for (std::uint32_t i = 0; i < grid.nx; ++i)
-      out.print("vt {:.6g} {:.6g}\n", double(i) / (grid.nx - 1), 1.0 - double(j) / (grid.ny - 1));
+      out.print("vt {:.6g} {:.6g}\n", double(i) / (grid.nx - 1),
+                1.0 - double(grid.own_row(j)) / (grid.ny - 1));
   for (const glm::dvec3& n : normals) out.print("vn {:.6g} {:.6g} {:.6g}\n", n.x, n.y, n.z);
   for_each_triangle(grid, state.broken_links, [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
     out.print("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", p + 1, q + 1, r + 1);

@@ -39,7 +39,9 @@ class Gather {
 
   void add_spring(const SpringKind& kind, int i, int j, int di, int dj, double own, RowSums& sums) const {
     const int oi = i + di, oj = j + dj;
-    if (oi < 0 || oj < 0 || oi >= static_cast<int>(grid_.nx) || oj >= static_cast<int>(grid_.ny)) return;
+    if (oi < 0 || oi >= static_cast<int>(grid_.nx)) return;
+    const int own_row = static_cast<int>(grid_.own_row(static_cast<std::uint32_t>(j)));
+    if (own_row + dj < 0 || own_row + dj >= static_cast<int>(grid_.ny)) return;
     const auto ui = static_cast<std::uint32_t>(i), uj = static_cast<std::uint32_t>(j);
     const double other = weight_of(static_cast<std::uint32_t>(oi), static_cast<std::uint32_t>(oj));
     // The weight depends only on the line that the spring lies along, which both its ends share.
@@ -53,10 +55,13 @@ class Gather {
 
   /// The up to three triples of one line through (i, j): those centred one before, here, and one after.
   void add_triples(std::uint32_t i, std::uint32_t j, bool along_i, double own, RowSums& sums) const {
-    const std::uint32_t here = along_i ? i : j, count = along_i ? grid_.nx : grid_.ny;
-    const double kappa = along_i ? model_.bend_kappa_n_m[0] * line_weight(j, grid_.ny)
+    const std::uint32_t own_row = grid_.own_row(j), first = j - own_row;
+    const std::uint32_t here = along_i ? i : own_row, count = along_i ? grid_.nx : grid_.ny;
+    const double kappa = along_i ? model_.bend_kappa_n_m[0] * line_weight(own_row, grid_.ny)
                                  : model_.bend_kappa_n_m[1] * line_weight(i, grid_.nx);
-    const auto at = [&](std::uint32_t place) { return along_i ? weight_of(place, j) : weight_of(i, place); };
+    const auto at = [&](std::uint32_t place) {
+      return along_i ? weight_of(place, j) : weight_of(i, first + place);
+    };
     for (std::uint32_t middle = here > 0 ? here - 1 : 0; middle <= here + 1; ++middle) {
       if (middle == 0 || middle + 1 >= count) continue;
       sums.stiffness_pairs += kappa * (at(middle - 1) + 4.0 * at(middle) + at(middle + 1));
@@ -73,7 +78,7 @@ class Gather {
 StepBound step_bound(const Model& model) {
   const Gather gather(model);
   RowSums largest;
-  for (std::uint32_t j = 0; j < model.grid.ny; ++j) {
+  for (std::uint32_t j = 0; j < model.grid.rows(); ++j) {
     for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
       if (model.loosest_inverse_mass(model.grid.index(i, j)) == 0.0) continue;
       const RowSums sums = gather.at(i, j);

@@ -69,6 +69,7 @@ Cloth cloth_for(const Model& model, const Plan& plan) {
 
 std::string unsupported(const Plan& plan) {
   if (plan.precision != "f32") return "native computes in f32 only";
+  if (plan.sheet_rows != 0) return "native has no vector code for several cloths";
   for (const PlanStep& step : plan.steps) {
     if (!has_code_for(step)) return fmt::format("native has no vector code for the pass {}", step.pass->name);
     if (step.block == weft::Block::frame_end) continue;

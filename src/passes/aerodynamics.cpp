@@ -47,9 +47,10 @@ class AirForce {
         {{0, 0, false}, {-1, 0, true}, {-1, 0, false}, {0, -1, true}, {0, -1, false}, {-1, -1, true}}};
     AirSum<T> sum;
     for (const Triangle& triangle : kAround) {
-      const int ci = int(i) + triangle.cell_i, cj = int(j) + triangle.cell_j;
+      const int ci = int(i) + triangle.cell_i, cj = int(grid_.own_row(j)) + triangle.cell_j;
       if (ci < 0 || cj < 0 || ci + 1 >= int(grid_.nx) || cj + 1 >= int(grid_.ny)) continue;
-      const std::uint32_t a = grid_.index(std::uint32_t(ci), std::uint32_t(cj)), below = a + grid_.nx;
+      const std::uint32_t a = grid_.index(std::uint32_t(ci), j + std::uint32_t(triangle.cell_j)),
+                          below = a + grid_.nx;
       if (!(triangle.second ? is_whole_b(links_, grid_, a) : is_whole_a(links_, a))) continue;
       if (triangle.second)
         add(a + 1, below, below + 1, wind, sum);
@@ -89,7 +90,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   position_next.resize(grid.count());
   velocity_next.resize(grid.count());
   const AirForce<T> force(buffers, grid, air, links_of<kTorn>(buffers));
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
       Vec3<T> v = own.v;

@@ -36,7 +36,12 @@ std::uint32_t last_row(double thickness_cells) {
 double design_speed_m_s(const Model& model) {
   const Scene& scene = model.scene;
   double drop_m = std::hypot(model.grid.width_m(), model.grid.height_m());
-  if (scene.floor) drop_m = std::max(drop_m, scene.cloth.center_m.y + drop_m / 2 - scene.floor->height_m);
+  const double size_m = drop_m;
+  for (std::size_t k = 0; k < cloth_count(scene); ++k) {
+    const glm::dvec3 center_m = cloth_of(scene, k).center_m;
+    if (scene.floor) drop_m = std::max(drop_m, center_m.y + size_m / 2 - scene.floor->height_m);
+    drop_m = std::max(drop_m, glm::distance(center_m, scene.cloth.center_m) + size_m);  // onto another cloth
+  }
   double speed_m_s = 1.0;
   if (scene.gravity) speed_m_s += std::sqrt(2.0 * glm::length(scene.gravity->acceleration_m_s2) * drop_m);
   if (scene.wind) speed_m_s += glm::length(scene.wind->velocity_m_s) * (1.0 + scene.wind->gust);
@@ -117,7 +122,7 @@ template shared::CollisionOf<double> make_collision(const Model&);
 
 Range collision_domain(const Model& model) {
   if (!model.scene.self_collision) return {};
-  return {.x = model.grid.nx, .y = model.grid.ny};
+  return whole_cloth(model);
 }
 
 }  // namespace weft

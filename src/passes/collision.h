@@ -113,6 +113,7 @@ struct CollisionView {
   }
 
   const PairLimit<T>& limit(std::uint32_t a, std::uint32_t b) const {
+    if (a / (grid.nx * grid.ny) != b / (grid.nx * grid.ny)) return limits[layout.limit_last];  // two cloths
     const auto apart = [](std::uint32_t p, std::uint32_t q) { return std::uint64_t{p > q ? p - q : q - p}; };
     const std::uint64_t di = apart(a % grid.nx, b % grid.nx), dj = apart(a / grid.nx, b / grid.nx);
     return limits[std::min(di * di + dj * dj, std::uint64_t{layout.limit_last})];

@@ -29,7 +29,8 @@ Vec3<T> whole_sum(const Grid& grid, const std::vector<glm::vec<4, T>>& x,
       sum = sum + triangle(x[cell + 1], x[cell + grid.nx], x[cell + grid.nx + 1]);
   };
   const std::uint32_t own = grid.index(i, j);
-  const bool left = i > 0, right = i + 1 < grid.nx, above = j > 0, below = j + 1 < grid.ny;
+  const bool left = i > 0, right = i + 1 < grid.nx, above = grid.own_row(j) > 0,
+             below = grid.own_row(j) + 1 < grid.ny;
   if (right && below) add_a(own);
   if (left && below) add_b(own - 1), add_a(own - 1);
   if (right && above) add_b(own - grid.nx), add_a(own - grid.nx);
@@ -43,7 +44,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const std::span<const std::uint32_t> links = links_of<kTorn>(buffers);
   auto& normal = buffers[BufferId::normal];
   normal.resize(grid.count());
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Vec3<T> n = whole_sum(grid, buffers[BufferId::position], links, p % grid.nx, p / grid.nx);
       const T l = std::sqrt(dot3(n, n));

@@ -48,7 +48,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   buffers.words_of(BufferId::pair_count).resize(grid.count());
   buffers.words_of(BufferId::pair_places).resize(std::size_t{grid.count()} * view.layout.capacity);
   std::atomic<std::uint32_t> dropped = 0;
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) dropped += gather(view, p, buffers);
   });
   buffers.words_of(BufferId::collision_state)[shared::kPairsDropped] += dropped;

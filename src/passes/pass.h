@@ -48,7 +48,7 @@ struct MirrorContext {
 };
 
 /// The domain of a pass that has one invocation a particle.
-inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.ny}; }
+inline Range whole_cloth(const Model& m) { return {.x = m.grid.nx, .y = m.grid.rows()}; }
 
 struct Pass {
   std::string_view name;

@@ -71,7 +71,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& velocity_next = buffers[BufferId::velocity_next];
   position_next.resize(grid.count());
   velocity_next.resize(grid.count());
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     Response<T> response(view, buffers);
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       glm::vec<4, T> x = std::as_const(buffers)[BufferId::position][p];

@@ -26,7 +26,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& position = buffers[BufferId::position];
   auto& velocity = buffers[BufferId::velocity];
   const auto& before = std::as_const(buffers)[BufferId::position_next];
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       if (position[p].w == T(0)) continue;
       Vec3<T> x1 = xyz(position[p]), v = xyz(velocity[p]);

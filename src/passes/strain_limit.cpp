@@ -42,7 +42,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const T step_s = static_cast<T>(context.row.drift_s);
   auto& x = buffers[BufferId::position];
   auto& v = buffers[BufferId::velocity];
-  parallel_rows(model.grid.ny, model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(model.grid.rows(), model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for_each_spring_of(model.grid, colour, begin, end, [&](const ColouredSpring& s) {
       limit_spring(limit, step_s, x[s.a], x[s.b], v[s.a], v[s.b]);
     });

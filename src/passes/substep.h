@@ -22,12 +22,14 @@ Vec3<T> xyz(const glm::vec<4, T>& v) {
 template <class T>
 class RowLoader {
  public:
-  RowLoader(const HostBuffers<T>& buffers, std::size_t nx) : buffers_(buffers), nx_(nx), scratch_(18 * nx) {}
+  /// @param first  row of the buffers that is row 0
+  RowLoader(const HostBuffers<T>& buffers, std::size_t nx, std::size_t first)
+      : buffers_(buffers), nx_(nx), first_(first), scratch_(18 * nx) {}
 
   RowPointers<T> operator()(std::size_t j) {
     T* const ring = scratch_.data() + (j % 3) * 6 * nx_;
-    const glm::vec<4, T>* x = buffers_[BufferId::position].data() + j * nx_;
-    const glm::vec<4, T>* v = buffers_[BufferId::velocity].data() + j * nx_;
+    const glm::vec<4, T>* x = buffers_[BufferId::position].data() + (first_ + j) * nx_;
+    const glm::vec<4, T>* v = buffers_[BufferId::velocity].data() + (first_ + j) * nx_;
     for (std::size_t i = 0; i < nx_; ++i) {
       ring[i] = x[i].x, ring[nx_ + i] = x[i].y, ring[2 * nx_ + i] = x[i].z;
       ring[3 * nx_ + i] = v[i].x, ring[4 * nx_ + i] = v[i].y, ring[5 * nx_ + i] = v[i].z;
@@ -37,7 +39,7 @@ class RowLoader {
 
  private:
   const HostBuffers<T>& buffers_;
-  std::size_t nx_;
+  std::size_t nx_, first_;
   std::vector<T> scratch_;
 };
 
@@ -109,11 +111,17 @@ void sweep_particles(const MirrorContext& context, const HostBuffers<T>& buffers
   const Grid& grid = context.model.grid;
   const SweepTables<T> tables(grid, spring_rows<T>(context.model), force_effects(context.constants));
   const std::size_t nx = grid.nx;
-  parallel_rows(grid.ny, nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), nx, [&](std::uint32_t begin, std::uint32_t end) {
     ForceSweep<T> sweep(tables);
-    sweep.run(begin, end, RowLoader<T>(buffers, nx), [&](std::size_t j, const std::array<T*, 3>& force) {
-      for (std::size_t i = 0; i < nx; ++i) move(j * nx + i, Vec3<T>(force[0][i], force[1][i], force[2][i]));
-    });
+    for (std::uint32_t row = begin; row < end;) {  // what of the band lies on one cloth
+      const std::uint32_t first = row - grid.own_row(row), until = std::min(end, first + grid.ny);
+      sweep.run(row - first, until - first, RowLoader<T>(buffers, nx, first),
+                [&](std::size_t j, const std::array<T*, 3>& force) {
+                  for (std::size_t i = 0; i < nx; ++i)
+                    move((first + j) * nx + i, Vec3<T>(force[0][i], force[1][i], force[2][i]));
+                });
+      row = until;
+    }
   });
 }
 

@@ -27,7 +27,7 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
     params.floor_friction = static_cast<T>(scene.floor->friction);
   }
   params.nx = model.grid.nx;
-  params.ny = model.grid.ny;
+  params.ny = model.grid.rows();
   params.sphere_count = static_cast<shared::uint>(scene.spheres.size());
   params.energy_share_s2_m2 = static_cast<T>(energy_share_s2_m2);
   params.row_stride = row_layout(model).stride;
@@ -36,7 +36,7 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
 
 std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
   constexpr std::uint32_t kGroup = shared::kCollisionGroup;
-  return {(grid.nx + kGroup - 1) / kGroup, grid.ny, 1, 1, 1, 1, 0, 0};
+  return {(grid.nx + kGroup - 1) / kGroup, grid.rows(), 1, 1, 1, 1, 0, 0};
 }
 
 namespace {

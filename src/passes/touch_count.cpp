@@ -17,7 +17,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const auto& places = buffers.words_of(BufferId::pair_places);
   auto& touches = buffers.words_of(BufferId::touch_count);
   touches.resize(grid.count());
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       touches[p] = 0;
       for (std::size_t k = 0; k < counts[p]; ++k) {

@@ -10,7 +10,9 @@ namespace weft {
 namespace {
 
 /// Rows of pieces: the last may be shorter.
-std::uint32_t piece_rows(const Grid& grid) { return (grid.ny + shared::kWatchRows - 1) / shared::kWatchRows; }
+std::uint32_t piece_rows(const Grid& grid) {
+  return (grid.rows() + shared::kWatchRows - 1) / shared::kWatchRows;
+}
 
 template <class T>
 T squared(const glm::vec<4, T>& a) {
@@ -48,7 +50,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   for (std::uint32_t at = 0; at < parts; ++at) {
     const std::uint32_t i = at % grid.nx, first = at / grid.nx * shared::kWatchRows;
     Part part{0, grid.index(i, first), 0};
-    for (std::uint32_t j = first; j < std::min(grid.ny, first + shared::kWatchRows); ++j) {
+    for (std::uint32_t j = first; j < std::min(grid.rows(), first + shared::kWatchRows); ++j) {
       const std::uint32_t p = grid.index(i, j);
       look_at(buffers[BufferId::position][p], buffers[BufferId::velocity][p], p, energy_share, part);
     }

@@ -18,7 +18,8 @@ Range item_domain(const Model& m, std::uint32_t item) {
   const std::uint32_t length = triples.along_i ? m.grid.nx : m.grid.ny;
   if (m.bend_kappa_n_m[triples.along_i ? 0 : 1] <= 0.0 || length < triples.colour + 3) return {};
   const std::uint32_t count = (length - triples.colour) / 3;
-  return triples.along_i ? Range{.x = count, .y = m.grid.ny} : Range{.x = m.grid.nx, .y = count};
+  return triples.along_i ? Range{.x = count, .y = m.grid.rows()}
+                         : Range{.x = m.grid.nx, .y = count * m.grid.cloths};
 }
 
 Constants constants(const Model& m) { return m.anisotropic() ? Constants{{"anisotropic", 1}} : Constants{}; }
@@ -54,15 +55,17 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const T inverse_mass = static_cast<T>(1.0 / context.model.interior_mass_kg);
   const TripleColour triples = TripleColour::of(context.item);
   const std::uint32_t di = triples.along_i ? 1 : 0, dj = 1 - di;
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t j = begin; j < end && j + 2 * dj < grid.ny; ++j) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t at = begin; at < end; ++at) {
+      const std::uint32_t j = grid.own_row(at);
+      if (j + 2 * dj >= grid.ny) continue;
       for (std::uint32_t i = 0; i + 2 * di < grid.nx; ++i) {
         if ((triples.along_i ? i : j) % 3 != triples.colour) continue;
         const std::uint32_t line = triples.along_i ? j : i, lines = triples.along_i ? grid.ny : grid.nx;
         const std::size_t row = shared::kConstraintBend + (line == 0 || line + 1 == lines ? 1 : 0) +
                                 (triples.along_i ? 0 : constraint_shift(context.model));
-        const std::uint32_t a = grid.index(i, j), b = grid.index(i + di, j + dj),
-                            c = grid.index(i + 2 * di, j + 2 * dj);
+        const std::uint32_t a = grid.index(i, at), b = grid.index(i + di, at + dj),
+                            c = grid.index(i + 2 * di, at + 2 * dj);
         straighten(rows[row].y, step_s, inverse_mass,
                    second_difference(xyz(start[a]), xyz(start[b]), xyz(start[c])), moved[a], moved[b],
                    moved[c]);

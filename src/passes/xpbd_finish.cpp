@@ -18,7 +18,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& position_next = buffers[BufferId::position_next];  // how far each has moved
   auto& velocity_next = buffers[BufferId::velocity_next];
   velocity_next.resize(grid.count());
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
       Vec3<T> x1 = own.x, v = own.v;

@@ -17,7 +17,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Grid& grid = context.model.grid;
   auto& position_next = buffers[BufferId::position_next];
   position_next.resize(grid.count());
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
       Vec3<T> moved(T(0));

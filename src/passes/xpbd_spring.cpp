@@ -56,7 +56,7 @@ std::size_t row_of(const Model& model, SpringName kind, std::uint32_t i, std::ui
 
 std::uint64_t item_spring_evaluations(const Model& m, std::uint32_t item) {
   std::uint64_t count = 0;
-  for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.ny, [&](const ColouredSpring& spring) {
+  for_each_spring_of(m.grid, SpringColour::of(item), 0, m.grid.rows(), [&](const ColouredSpring& spring) {
     count += m.loosest_inverse_mass(spring.a) + m.loosest_inverse_mass(spring.b) > 0.0 ? 1 : 0;
   });
   return count;
@@ -94,7 +94,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const T inverse_mass = static_cast<T>(1.0 / model.interior_mass_kg);
   const bool damped = context.constants[0].value != 0;
   const SpringColour colour = SpringColour::of(context.item);
-  parallel_rows(model.grid.ny, model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(model.grid.rows(), model.grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for_each_spring_of(model.grid, colour, begin, end, [&](const ColouredSpring& spring) {
       const auto& row = rows[row_of(model, colour.kind, spring.i, spring.j)];
       glm::vec<4, T>&a = moved[spring.a], &b = moved[spring.b];

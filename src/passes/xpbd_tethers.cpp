@@ -13,7 +13,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const Grid& grid = context.model.grid;
   const auto& start = std::as_const(buffers)[BufferId::position];
   auto& moved = buffers[BufferId::position_next];
-  parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
+  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Tether& tether = context.model.tethers[p];
       const T reach = static_cast<T>(tether.reach_m);

@@ -176,6 +176,22 @@ void require_one_limit(const Model& model) {
         model.scene.source, model.scene.material.strain_limit);
 }
 
+/// What joins particles by tables that are for one cloth, where the scene has several; empty: nothing.
+std::string for_one_cloth(const Model& model) {
+  if (model.grid.cloths == 1) return "";
+  return model.scene.tearing ? "[tearing]" : model.scene.tethers ? "[tethers]" : "";
+}
+
+void require_one_cloth(const Model& model) {
+  const std::string section = for_one_cloth(model);
+  if (section.empty()) return;
+  throw error(
+      Exit::usage,
+      "{}: {} stands beside [[cloths]], of which there are {}; it must be one or the other, since it is "
+      "for one cloth (remove one)",
+      model.scene.source, section, model.scene.cloths.size());
+}
+
 }  // namespace
 
 bool has_compensated(const Solver& solver) {
@@ -187,13 +203,16 @@ bool has_compensated(const Solver& solver) {
 
 std::string what_solver_lacks(const Model& model, const Solver& solver) {
   const Need* need = unmet_need(model, solver);
-  return need == nullptr ? "" : "has no passes for " + need->place(model);
+  if (need != nullptr) return "has no passes for " + need->place(model);
+  const std::string section = for_one_cloth(model);
+  return section.empty() ? "" : "takes " + section + " for one cloth only";
 }
 
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {
   require_precision(model, solver, precision);
   require_passes(model, solver);
   require_one_limit(model);
+  require_one_cloth(model);
   Plan plan{};
   plan.solver = &solver;
   plan.precision = precision;
@@ -207,6 +226,7 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
                           .constants = {}});
   plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
+  if (model.grid.cloths > 1) plan.sheet_rows = model.grid.ny;
   return plan;
 }
 

@@ -41,7 +41,9 @@ std::string buffer_note(BufferId id, const Plan& plan) {
 }  // namespace
 
 std::string describe(const Plan& plan, const Model& model) {
-  std::string text = fmt::format("{} - {} x {} particles, {} springs\n", model.scene.title, model.grid.nx,
+  const std::uint32_t cloths = model.grid.cloths;
+  std::string text = fmt::format("{} - {}{} x {} particles, {} springs\n", model.scene.title,
+                                 cloths > 1 ? fmt::format("{} cloths of ", cloths) : "", model.grid.nx,
                                  model.grid.ny, model.spring_count);
   text += fmt::format("solver {}: {} a frame of {:.6g} s, {} dispatches\n\n", plan.solver->name,
                       counted(plan.substeps, "substep"), model.scene.solver.frame_s, plan.dispatches());
@@ -76,6 +78,7 @@ std::string to_json(const Plan& plan, const Model& model) {
   json["on_gpu"] = plan.solver->on_gpu;
   json["substeps"] = plan.substeps;
   json["dispatches"] = plan.dispatches();
+  if (model.grid.cloths > 1) json["cloths"] = model.grid.cloths;
   json["steps"] = Json::array();
   for (const PlanStep& step : plan.steps) {
     Json constants = Json::object();

@@ -31,14 +31,14 @@ glm::dvec2 flat_place(const Model& model, const PinSection& pin) {
 
 /// The start's height above the world's origin at a pin.
 double pin_height_m(const Model& model, const PinSection& pin) {
-  const ClothSection& cloth = model.scene.cloth;
+  const ClothSection cloth = cloth_of(model.scene, pin.cloth);
   if (cloth.orientation == Orientation::horizontal) return cloth.center_m.y;
   return cloth.center_m.y + model.grid.height_m() * (0.5 - pin.at.y);
 }
 
 /// How low the cloth's corners hang when the threads from the pins are straight. The middle of a cloth held
 /// all around sags by something like a sixth of its size.
-double hanging_low_m(const Model& model, double start_low_m) {
+double hanging_low_m(const Model& model, std::uint32_t cloth, double start_low_m) {
   const double width = model.grid.width_m(), height = model.grid.height_m();
   const glm::dvec2 corners[] = {{0.0, 0.0}, {width, 0.0}, {0.0, height}, {width, height}};
   double low = start_low_m;
@@ -46,7 +46,8 @@ double hanging_low_m(const Model& model, double start_low_m) {
   for (const glm::dvec2& corner : corners) {
     double held = -std::numeric_limits<double>::infinity();
     for (const PinSection& pin : model.scene.pins)
-      held = std::max(held, pin_height_m(model, pin) - glm::distance(flat_place(model, pin), corner));
+      if (pin.cloth == cloth)
+        held = std::max(held, pin_height_m(model, pin) - glm::distance(flat_place(model, pin), corner));
     low = std::min(low, held);
     sag = std::min(sag, start_low_m - held);
   }
@@ -54,10 +55,24 @@ double hanging_low_m(const Model& model, double start_low_m) {
   return held_all_around ? start_low_m - std::max(width, height) / 6.0 : low;
 }
 
+/// How low pins let the cloths hang that they hold; a free one beside them falls to the floor.
+double low_with_pins_m(const Model& model, double start_low_m) {
+  const Scene& scene = model.scene;
+  double low = start_low_m;
+  for (std::uint32_t cloth = 0; cloth < model.grid.cloths; ++cloth) {
+    const auto holds = [cloth](const PinSection& pin) { return pin.cloth == cloth; };
+    if (std::ranges::any_of(scene.pins, holds))
+      low = std::min(low, hanging_low_m(model, cloth, start_low_m));
+    else if (scene.floor && scene.gravity)
+      low = std::min(low, scene.floor->height_m);
+  }
+  return low;
+}
+
 /// A free cloth that falls upright folds over where it lands: about a third of its height to either side, and
 /// a seventh of its width beyond its edges.
-void include_landing(Bounds& bounds, const Model& model) {
-  const glm::dvec3& center = model.scene.cloth.center_m;
+void include_landing(Bounds& bounds, const Model& model, const ClothSection& cloth) {
+  const glm::dvec3& center = cloth.center_m;
   const glm::dvec3 reach{0.65 * model.grid.width_m(), 0.0, 0.35 * model.grid.height_m()};
   const glm::dvec3 middle{center.x, bounds.low.y, center.z};
   include(bounds, middle - reach, middle + reach);
@@ -99,10 +114,12 @@ Bounds scene_bounds(const Model& model) {
   Bounds bounds = start_bounds(start_state(model));
   const double size = std::max(model.grid.width_m(), model.grid.height_m());
   if (!scene.pins.empty())
-    bounds.low.y = hanging_low_m(model, bounds.low.y);
+    bounds.low.y = low_with_pins_m(model, bounds.low.y);
   else if (scene.floor && scene.gravity) {
     bounds.low.y = std::min(bounds.low.y, scene.floor->height_m);
-    if (scene.cloth.orientation == Orientation::vertical) include_landing(bounds, model);
+    for (std::size_t k = 0; k < cloth_count(scene); ++k)
+      if (const ClothSection cloth = cloth_of(scene, k); cloth.orientation == Orientation::vertical)
+        include_landing(bounds, model, cloth);
   } else if (scene.gravity)
     bounds.low.y -= 0.5 * size;
   for (const SphereSection& sphere : scene.spheres)

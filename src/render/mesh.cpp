@@ -20,19 +20,32 @@ std::vector<std::uint32_t> kept(std::uint32_t count, std::uint32_t stride) {
   return lines;
 }
 
+/// The same of every cloth's rows.
+std::vector<std::uint32_t> kept_rows(const Grid& grid, std::uint32_t stride) {
+  const std::vector<std::uint32_t> own = kept(grid.ny, stride);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t cloth = 0; cloth < grid.cloths; ++cloth)
+    for (const std::uint32_t row : own) rows.push_back(cloth * grid.ny + row);
+  return rows;
+}
+
+bool is_last_row(const Grid& grid, std::uint32_t row) { return grid.own_row(row) + 1 == grid.ny; }
+
 }  // namespace
 
 std::vector<std::uint32_t> cloth_triangles(const Grid& grid, std::uint32_t stride) {
   std::vector<std::uint32_t> indices;
-  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept(grid.ny, stride);
-  indices.reserve(std::size_t{6} * (columns.size() - 1) * (rows.size() - 1));
-  for (std::size_t j = 0; j + 1 < rows.size(); ++j)
+  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept_rows(grid, stride);
+  indices.reserve(std::size_t{6} * (columns.size() - 1) * (rows.size() - grid.cloths));
+  for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+    if (is_last_row(grid, rows[j])) continue;
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
       const std::uint32_t own = grid.index(columns[i], rows[j]), right = grid.index(columns[i + 1], rows[j]),
                           below = grid.index(columns[i], rows[j + 1]),
                           last = grid.index(columns[i + 1], rows[j + 1]);
       for (const std::uint32_t index : {own, below, right, right, below, last}) indices.push_back(index);
     }
+  }
   return indices;
 }
 
@@ -48,7 +61,7 @@ std::vector<std::uint32_t> cloth_half_triangles(const Grid& grid, std::uint32_t 
 
 std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride) {
   std::vector<std::uint32_t> indices;
-  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept(grid.ny, stride);
+  const std::vector<std::uint32_t> columns = kept(grid.nx, stride), rows = kept_rows(grid, stride);
   indices.reserve(std::size_t{6} * columns.size() * rows.size());
   const auto line = [&](std::uint32_t a, std::uint32_t b) {
     indices.push_back(a);
@@ -56,7 +69,7 @@ std::vector<std::uint32_t> cloth_lines(const Grid& grid, std::uint32_t stride) {
   };
   for (std::size_t j = 0; j < rows.size(); ++j)
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const bool has_right = i + 1 < columns.size(), has_below = j + 1 < rows.size();
+      const bool has_right = i + 1 < columns.size(), has_below = !is_last_row(grid, rows[j]);
       const std::uint32_t own = grid.index(columns[i], rows[j]);
       if (has_right) line(own, grid.index(columns[i + 1], rows[j]));
       if (has_below) line(own, grid.index(columns[i], rows[j + 1]));

@@ -12,7 +12,7 @@ namespace weft {
 // edges stay.
 
 /// Three indices a triangle, counter-clockwise seen from the front. Cell by cell A = (i,j), (i,j+1), (i+1,j)
-/// and B = (i+1,j), (i,j+1), (i+1,j+1); 6·(nx−1)·(ny−1) indices with a stride of 1.
+/// and B = (i+1,j), (i,j+1), (i+1,j+1); 6·(nx−1)·(ny−1) indices a cloth with a stride of 1.
 std::vector<std::uint32_t> cloth_triangles(const Grid& grid, std::uint32_t stride = 1);
 
 /// The A triangles only: half of them, so that the triangulation shows.

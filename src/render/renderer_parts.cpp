@@ -14,7 +14,8 @@ void Renderer::set_model(const Model& model) {
   stage_.bounds = scene_bounds(model);
   ball_count_ = ball_count(model);
   make_solids();
-  if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny) return;
+  if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny && model.grid.cloths == listed_.cloths)
+    return;
   drop_cloth_lists();
   listed_ = model.grid;
 }

@@ -26,7 +26,7 @@ double drawn_radius_m(double radius_m, double spacing_m) {
 }
 
 glm::dvec3 pin_place_m(const Model& model, const PinSection& pin, double time_s) {
-  const ClothSection& cloth = model.scene.cloth;
+  const ClothSection cloth = cloth_of(model.scene, pin.cloth);
   const double u = (pin.at.x - 0.5) * model.grid.width_m(), s = (0.5 - pin.at.y) * model.grid.height_m();
   const bool lies = cloth.orientation == Orientation::horizontal;
   return cloth.center_m + pin_offset_at(model.scene, pin, time_s) +
@@ -109,6 +109,7 @@ shared::View make_view(const Model& model, const Stage& stage, const Camera& cam
   view.spacing_m = static_cast<float>(model.grid.spacing_m);
   view.nx = model.grid.nx;
   view.ny = model.grid.ny;
+  view.cloths = model.grid.cloths;
   place_light(model, stage, view);
   place_balls(model, time_s, view);
   return view;

@@ -39,6 +39,10 @@ void check_rows(const Draft& draft) {
 void check_pins(const Draft& draft) {
   for (std::size_t k = 0; k < draft.scene.pins.size(); ++k) {
     const PinSection& pin = draft.scene.pins[k];
+    if (pin.cloth >= cloth_count(draft.scene))
+      throw error(Exit::usage,
+                  "{}: pins.{}.cloth is {}; it must be 0 to {}, the number of [[cloths]] (add the cloth)",
+                  draft.place_of({"pins", k}, "cloth"), k, pin.cloth, draft.scene.cloths.size());
     const double nearest_m = nearest_particle_m(draft.scene.cloth, pin.at);
     if (nearest_m <= pin_reach_m(pin)) continue;
     const Target target{"pins", k};
@@ -154,6 +158,13 @@ void check_moved_pins(const Draft& draft) {
   }
 }
 
+void check_cloths(const Draft& draft) {
+  if (cloth_count(draft.scene) <= shared::kMaxCloths) return;
+  throw error(Exit::usage, "{}: there are {} cloths, [cloth] included; it must be at most {} (remove some)",
+              draft.place_of({"cloths", shared::kMaxCloths - 1}), cloth_count(draft.scene),
+              shared::kMaxCloths);
+}
+
 void check_spheres(const Draft& draft) {
   if (draft.scene.spheres.size() <= shared::kMaxSpheres) return;
   throw error(Exit::usage, "{}: there are {} spheres; it must be at most {} (remove some)",
@@ -166,6 +177,7 @@ void check_spheres(const Draft& draft) {
 void check_scene(const Draft& draft) {
   check_required(draft);
   check_rows(draft);
+  check_cloths(draft);
   check_pins(draft);
   check_wind(draft);
   check_motion(draft);

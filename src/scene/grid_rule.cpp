@@ -39,17 +39,15 @@ double nearest_particle_m(const ClothSection& cloth, glm::dvec2 at) {
                     nearest_on_line(at.y * a * (rows - 1.0), a, rows));
 }
 
-StartDepths start_depths(const Scene& scene, double half_thickness_m) {
-  const ClothSection& cloth = scene.cloth;
+namespace {
+
+void deepen(const Scene& scene, const ClothSection& cloth, double half_thickness_m, StartDepths& depths) {
   const double a = cell_m(cloth);
   const auto nx = static_cast<std::size_t>(cloth.resolution);
   const auto ny = static_cast<std::size_t>(rows_along_height(cloth));
   const double half_height_m = 0.5 * a * static_cast<double>(ny - 1);
   const std::vector<double> along_i = wave(nx, 3.0, 0.4), along_j = wave(ny, 2.0, 0.9);
   const bool is_vertical = cloth.orientation == Orientation::vertical;
-
-  StartDepths depths{-std::numeric_limits<double>::infinity(),
-                     std::vector<double>(scene.spheres.size(), -std::numeric_limits<double>::infinity())};
   for (std::size_t j = 0; j < ny; ++j) {
     for (std::size_t i = 0; i < nx; ++i) {
       const double u = static_cast<double>(i) * a - 0.5 * cloth.width_m, s = static_cast<double>(j) * a;
@@ -69,6 +67,15 @@ StartDepths start_depths(const Scene& scene, double half_thickness_m) {
       }
     }
   }
+}
+
+}  // namespace
+
+StartDepths start_depths(const Scene& scene, double half_thickness_m) {
+  StartDepths depths{-std::numeric_limits<double>::infinity(),
+                     std::vector<double>(scene.spheres.size(), -std::numeric_limits<double>::infinity())};
+  for (std::size_t cloth = 0; cloth < cloth_count(scene); ++cloth)
+    deepen(scene, cloth_of(scene, cloth), half_thickness_m, depths);
   return depths;
 }
 

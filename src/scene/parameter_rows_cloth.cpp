@@ -4,6 +4,7 @@
 #include "scene/parameter_access.h"
 #include "scene/parameter_rows.h"
 #include "scene/parameter_specials.h"
+#include "shared/params.h"
 
 namespace weft {
 namespace {
@@ -70,6 +71,30 @@ const Parameter kClothRows[] = {
          .about = "smooth displacement of the start along the normal, so that round-off does not choose how "
                   "it buckles",
          .example = "0.005"}),
+
+    row<&Scene::cloths, &SheetSection::center_m>({.section = "cloths",
+                                                  .key = "center",
+                                                  .kind = vec3,
+                                                  .minimum = -kFarthest_m,
+                                                  .maximum = kFarthest_m,
+                                                  .required = true,
+                                                  .unit = "m",
+                                                  .about = "middle of this cloth at the start",
+                                                  .example = "[0, 1.4, 0]"}),
+    cloth_default_row<&SheetSection::orientation, &ClothSection::orientation>(
+        {.section = "cloths",
+         .key = "orientation",
+         .kind = word,
+         .about = "as in [cloth]",
+         .example = "\"horizontal\"",
+         .words = "vertical|horizontal"}),
+    cloth_default_row<&SheetSection::imperfection_m, &ClothSection::imperfection_m>({.section = "cloths",
+                                                                                     .key = "imperfection",
+                                                                                     .maximum = 1,
+                                                                                     .slider_maximum = 0.05,
+                                                                                     .unit = "m",
+                                                                                     .about = "as in [cloth]",
+                                                                                     .example = "0.005"}),
 
     row<&Scene::material, &MaterialSection::preset>(
         {.section = "material",
@@ -235,6 +260,13 @@ const Parameter kClothRows[] = {
                                                .about = "when it lets go of what it holds",
                                                .example = "2",
                                                .default_text = "never"}),
+    row<&Scene::pins, &PinSection::cloth>(
+        {.section = "pins",
+         .key = "cloth",
+         .kind = integer,
+         .maximum = shared::kMaxCloths - 1,
+         .about = "which cloth it holds: 0 is [cloth], 1 the first of [[cloths]]",
+         .example = "0"}),
 };
 
 }  // namespace

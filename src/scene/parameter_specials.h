@@ -1,6 +1,7 @@
 // The parameters that are more than one member of a scene: how they are read and written. Internal to
 // src/scene.
 #pragma once
+#include "scene/parameter_access.h"
 #include "scene/parameters.h"
 
 namespace weft::parameter_access {
@@ -13,6 +14,20 @@ inline void set_title(Scene& scene, std::size_t, const ParameterValue& value) {
 inline ParameterValue get_shear(const Scene& scene, std::size_t) { return scene.material.shear(); }
 inline void set_shear(Scene& scene, std::size_t, const ParameterValue& value) {
   scene.material.shear_n_m = std::get<double>(value);
+}
+
+// What a further cloth says itself, or [cloth].
+template <auto own, auto of_cloth>
+constexpr Parameter cloth_default_row(Parameter parameter) {
+  parameter.get = [](const Scene& scene, std::size_t item) {
+    return to_value((scene.cloths[item].*own).value_or(scene.cloth.*of_cloth));
+  };
+  parameter.set = [](Scene& scene, std::size_t item, const ParameterValue& value) {
+    auto& field = scene.cloths[item].*own;
+    from_value(field.emplace(), value);
+  };
+  parameter.default_text = "that of [cloth]";
+  return parameter;
 }
 
 // What a direction has: its own value, or the one of both.

@@ -11,14 +11,15 @@
 namespace weft {
 namespace {
 
-constexpr std::string_view kSections[] = {"cloth",  "material",     "pins",           "gravity", "air",
-                                          "wind",   "aerodynamics", "floor",          "spheres", "capsules",
-                                          "boxes",  "meshes",       "self_collision", "tethers", "tearing",
-                                          "solver", "expect"};
+constexpr std::string_view kSections[] = {"cloth",    "cloths", "material",     "pins",           "gravity",
+                                          "air",      "wind",   "aerodynamics", "floor",          "spheres",
+                                          "capsules", "boxes",  "meshes",       "self_collision", "tethers",
+                                          "tearing",  "solver", "expect"};
 
 /// Applies `act` to the optional or list that stands for a section; nothing for sections that always stand.
 template <class AnyScene, class Act>
 void with_section(AnyScene& scene, std::string_view section, Act&& act) {
+  if (section == "cloths") return act(scene.cloths);
   if (section == "pins") return act(scene.pins);
   if (section == "spheres") return act(scene.spheres);
   if (section == "capsules") return act(scene.capsules);

@@ -6,6 +6,16 @@
 
 namespace weft {
 
+ClothSection cloth_of(const Scene& scene, std::size_t index) {
+  ClothSection cloth = scene.cloth;
+  if (index == 0) return cloth;
+  const SheetSection& sheet = scene.cloths.at(index - 1);
+  cloth.center_m = sheet.center_m;
+  cloth.orientation = sheet.orientation.value_or(cloth.orientation);
+  cloth.imperfection_m = sheet.imperfection_m.value_or(cloth.imperfection_m);
+  return cloth;
+}
+
 std::optional<std::size_t> attached_sphere(const Scene& scene, const PinSection& pin) {
   constexpr std::string_view kList = "spheres.";
   if (!pin.attach.starts_with(kList)) return std::nullopt;

@@ -31,6 +31,14 @@ struct ClothSection {
   double imperfection_m = 0.0;
 };
 
+/// A further cloth: size, resolution and material are the scene's.
+struct SheetSection {
+  glm::dvec3 center_m{0.0};                ///< required
+  std::optional<Orientation> orientation;  ///< absent: that of [cloth]
+  std::optional<double> imperfection_m;    ///< absent: that of [cloth]
+  bool operator==(const SheetSection&) const = default;
+};
+
 struct MaterialSection {
   std::string preset;  ///< name in assets/materials, empty when none
   double density_kg_m2 = 0.2;
@@ -61,6 +69,7 @@ struct PinSection {
   MotionKeys keys = {};                  ///< of its offset; empty: it stays
   std::string attach = {};               ///< "spheres.0": it goes with that sphere; empty: with none
   std::optional<double> release_s = {};  ///< when it lets go; absent: never
+  std::uint32_t cloth = 0;               ///< which one it holds: 0 is [cloth], 1 the first of [[cloths]]
 
   bool moves() const { return !keys.empty() || !attach.empty(); }
   bool operator==(const PinSection&) const = default;
@@ -168,6 +177,7 @@ struct Scene {
   std::string title;
   std::string source;  ///< path of the file, for messages
   ClothSection cloth;
+  std::vector<SheetSection> cloths;  ///< beyond the first
   MaterialSection material;
   std::vector<PinSection> pins;
   std::optional<GravitySection> gravity;
@@ -185,6 +195,14 @@ struct Scene {
   SolverSection solver;
   std::optional<ExpectSection> expect;
 };
+
+/// [cloth] and [[cloths]] together.
+inline std::uint32_t cloth_count(const Scene& scene) {
+  return 1 + static_cast<std::uint32_t>(scene.cloths.size());
+}
+
+/// The whole of one cloth: 0 is [cloth], 1 the first of [[cloths]].
+ClothSection cloth_of(const Scene& scene, std::size_t index);
 
 /// The sphere that a pin goes with, as an index in Scene::spheres; nothing when there is none of that name.
 std::optional<std::size_t> attached_sphere(const Scene& scene, const PinSection& pin);

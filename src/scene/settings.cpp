@@ -74,6 +74,11 @@ std::vector<std::string_view> keys_of(std::string_view section) {
 
 [[noreturn]] void refuse_unknown_key(const Target& target, std::string_view key, const Place& place) {
   const auto known = keys_of(target.section);
+  if (target.section == "cloths" && find_parameter("cloth", key) != nullptr)
+    throw error(Exit::usage,
+                "{}: {} stands in [[cloths]]; it must be in [cloth], since every cloth has the same size and "
+                "resolution (move it there; a further cloth has {})",
+                place, in_quotes(key), joined(known));
   throw error(Exit::usage, "{}: {} is not a key of [{}]; {}", place, in_quotes(key), target.section,
               suggestion(key, known));
 }

@@ -58,8 +58,10 @@ void warn_of_first_keys(const Draft& draft, Warnings& warnings) {
 
 /// The farthest from the origin that the cloth starts, or that a pin takes some of it [m].
 double farthest_m(const Scene& scene) {
-  const ClothSection& cloth = scene.cloth;
-  const double reach_m = glm::length(cloth.center_m) + 0.5 * std::hypot(cloth.width_m, cloth.height_m);
+  double center_m = 0.0;
+  for (std::size_t k = 0; k < cloth_count(scene); ++k)
+    center_m = std::max(center_m, glm::length(cloth_of(scene, k).center_m));
+  const double reach_m = center_m + 0.5 * std::hypot(scene.cloth.width_m, scene.cloth.height_m);
   double carried_m = 0.0;
   for (const PinSection& pin : scene.pins)
     for (const MotionKey& key : pin.keys) carried_m = std::max(carried_m, glm::length(key.place_m));

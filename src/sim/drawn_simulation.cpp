@@ -19,7 +19,8 @@ bool same_commands(const Plan& a, const Plan& b) {
   const auto same_buffer = [](const PlanBuffer& x, const PlanBuffer& y) {
     return x.id == y.id && x.bytes == y.bytes;
   };
-  return a.solver == b.solver && std::ranges::equal(a.steps, b.steps, same_step) &&
+  return a.solver == b.solver && a.sheet_rows == b.sheet_rows &&
+         std::ranges::equal(a.steps, b.steps, same_step) &&
          std::ranges::equal(a.buffers, b.buffers, same_buffer);
 }
 

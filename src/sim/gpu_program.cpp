@@ -53,6 +53,9 @@ VkBufferUsageFlags usage_of(BufferId id) {
   }
 }
 
+/// The id of `sheet_rows` (shaders/shared/sheets.glsl): beyond all that passes and kernels have.
+constexpr std::size_t kSheetRowsConstant = 30;
+
 /// What the host writes or reads every frame, without a copy between; devices seldom touch it.
 bool host_reaches(BufferId id) { return host_written(id) || id == BufferId::watch_state; }
 
@@ -175,7 +178,9 @@ GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const Pla
 
 GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers,
                        std::shared_ptr<GpuPipelines> pipelines, const std::optional<Kernel>& kernel)
-    : kernel_(kernel ? *kernel : direct_kernel(device, plan)), doubles_(plan.in_double()) {
+    : kernel_(kernel ? *kernel : direct_kernel(device, plan)),
+      doubles_(plan.in_double()),
+      sheet_rows_(plan.sheet_rows) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
     Step& made = steps_.emplace_back(
@@ -204,6 +209,11 @@ std::size_t GpuProgram::pipeline_for(gpu::Device& device, const PlanStep& step, 
   std::vector<std::uint32_t> constants;
   for (const Constant& constant : step.constants) constants.push_back(constant.value);
   constants.insert(constants.end(), variant.constants.begin(), variant.constants.end());
+  if (sheet_rows_ != 0) {
+    WEFT_ASSERT(constants.size() <= kSheetRowsConstant);
+    constants.resize(kSheetRowsConstant, 0);
+    constants.push_back(sheet_rows_);
+  }
   for (std::size_t k = 0; k < pipelines_.size(); ++k)
     if (pipelines_[k].module == variant.module && pipelines_[k].constants == constants) return k;
 

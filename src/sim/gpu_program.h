@@ -90,6 +90,7 @@ class GpuProgram {
   std::size_t pipeline_for(gpu::Device&, const PlanStep&, const Variant&, const GpuBuffers&, GpuPipelines&);
   Kernel kernel_;
   bool doubles_;
+  std::uint32_t sheet_rows_;
   std::vector<Pipeline> pipelines_;
   std::vector<Step> steps_;
 };

@@ -34,6 +34,7 @@ Json contents(const std::filesystem::path& file) {
 std::string kernel_memory_key(const Plan& plan) {
   const PlanStep& step = plan.steps.at(0);
   std::string key = fmt::format("{}x{}", step.range.x, step.range.y);
+  if (plan.sheet_rows != 0) key += fmt::format(" in cloths of {}", plan.sheet_rows);
   for (const PlanStep& each : plan.steps) {
     key += fmt::format(" {}", each.pass->name);
     for (const Constant& constant : each.constants) key += fmt::format(":{}", constant.value);

@@ -93,6 +93,8 @@ std::string unfit(const gpu::Device& device, const Plan& plan, const Kernel& ker
   if (kernel.kind == KernelKind::direct) return {};
   const PlanStep* step = substep_integrate(plan);
   if (step == nullptr) return no_integrate(plan);
+  if (plan.sheet_rows != 0 && kernel.kind != KernelKind::texel)
+    return "it is for one cloth; the scene has several";
   std::string reason = texels_unfit(device, std::uint64_t{step->range.x} * step->range.y);
   if (reason.empty() && kernel.kind == KernelKind::steal) reason = steal_unfit(device);
   if (reason.empty() && kernel.kind == KernelKind::bands) reason = bands_unfit(device, plan, kernel);

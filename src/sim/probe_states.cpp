@@ -71,7 +71,7 @@ State folded(const Model& model, const State& from) {
   const Grid& grid = model.grid;
   const double thickness_m = 2.0 * model.half_thickness_m;
   State state = from;
-  for (std::uint32_t j = 0; j < grid.ny; ++j)
+  for (std::uint32_t j = 0; j < grid.rows(); ++j)
     for (std::uint32_t i = grid.nx / 2; i < grid.nx; ++i) {
       const std::uint32_t p = grid.index(i, j), under = grid.index(grid.nx - 1 - i, j);
       state.position[p] =

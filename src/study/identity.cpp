@@ -42,6 +42,7 @@ std::optional<ParameterValue> absent_value(const Scene& scene, const Parameter& 
   if (row.kind == ParameterKind::keys) return MotionKeys{};
   if (row.section == "material" && row.key == "strain_limit") return 0.0;
   if (row.key == "attach") return std::string();
+  if (row.section == "pins" && row.key == "cloth") return 0.0;
   if (row.key.starts_with("membrane_")) return scene.material.membrane_n_m;
   if (row.key.starts_with("bend_")) return scene.material.bend_n_m;
   return std::nullopt;

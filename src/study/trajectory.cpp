@@ -31,8 +31,11 @@ Place place_on(double at_m, double spacing_m, std::uint32_t count) {
   return {first, first + 1, share};
 }
 
-glm::dvec3 position_at(const Grid& grid, const State& state, const Place& u, const Place& v) {
-  const auto at = [&](std::uint32_t i, std::uint32_t j) { return state.position[grid.index(i, j)]; };
+glm::dvec3 position_at(const Grid& grid, const State& state, std::uint32_t cloth, const Place& u,
+                       const Place& v) {
+  const auto at = [&](std::uint32_t i, std::uint32_t j) {
+    return state.position[grid.index(i, cloth * grid.ny + j)];
+  };
   const glm::dvec3 above = glm::mix(at(u.first, v.first), at(u.second, v.first), u.share);
   const glm::dvec3 below = glm::mix(at(u.first, v.second), at(u.second, v.second), u.share);
   return glm::mix(above, below, v.share);
@@ -77,11 +80,13 @@ double trajectory_distance(const Trajectory& a, const Trajectory& b) {
 double resolution_distance(const Grid& coarse_grid, const State& coarse, const Grid& fine_grid,
                            const State& fine) {
   double sum = 0.0;
-  for (std::uint32_t j = 0; j < coarse_grid.ny; ++j) {
+  for (std::uint32_t row = 0; row < coarse_grid.rows(); ++row) {
+    const std::uint32_t j = coarse_grid.own_row(row), cloth = row / coarse_grid.ny;
     const Place v = place_on(j * coarse_grid.spacing_m, fine_grid.spacing_m, fine_grid.ny);
     for (std::uint32_t i = 0; i < coarse_grid.nx; ++i) {
       const Place u = place_on(i * coarse_grid.spacing_m, fine_grid.spacing_m, fine_grid.nx);
-      const glm::dvec3 d = coarse.position[coarse_grid.index(i, j)] - position_at(fine_grid, fine, u, v);
+      const glm::dvec3 d =
+          coarse.position[coarse_grid.index(i, row)] - position_at(fine_grid, fine, cloth, u, v);
       sum += glm::dot(d, d);
     }
   }

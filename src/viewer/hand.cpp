@@ -8,9 +8,12 @@
 namespace weft {
 
 PinSection Hand::pin(const Grid& grid, std::uint32_t particle) {
-  const double i = particle % grid.nx, j = particle / grid.nx;
+  const std::uint32_t row = particle / grid.nx;
+  const double i = particle % grid.nx, j = grid.own_row(row);
   // At least the particle itself, however coarse the grid.
-  return {.at = {i / (grid.nx - 1), j / (grid.ny - 1)}, .radius_m = std::max(kPatch_m, 0.1 * grid.spacing_m)};
+  return {.at = {i / (grid.nx - 1), j / (grid.ny - 1)},
+          .radius_m = std::max(kPatch_m, 0.1 * grid.spacing_m),
+          .cloth = row / grid.ny};
 }
 
 void Hand::grab(const Model& before, const Model& with_pin, const State& state, const Pick& pick) {

@@ -96,7 +96,8 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   const RunFigures& figures = running.figures();
   device_lines(running, facts);
   pace_lines(running, facts);
-  line(fmt::format("{} x {} = {} particles", grid.nx, grid.ny, grid.count()));
+  line(fmt::format("{}{} x {} = {} particles", grid.cloths > 1 ? fmt::format("{} x ", grid.cloths) : "",
+                   grid.nx, grid.ny, grid.count()));
   line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));
   line(fmt::format("simulation {} a frame", frame_text(figures)));
   line(fmt::format("drawing {:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.pictures_per_s));

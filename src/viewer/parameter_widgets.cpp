@@ -154,6 +154,9 @@ void add_visible_section(Scene& scene, std::string_view section) {
   if (section == "wind" && !was_there) scene.wind->velocity_m_s = {0.0, 0.0, 3.0};
   if (section == "self_collision" && !was_there) scene.self_collision->thickness_m = 0.5 * cell_m;
   if (section == "tearing" && !was_there) scene.tearing->strain = 0.3;
+  if (section == "cloths")  // clear of the others, so that none starts within another
+    scene.cloths.back().center_m =
+        scene.cloth.center_m + glm::dvec3(0.0, 0.0, 0.1 * scene.cloth.width_m) * double(scene.cloths.size());
   if (section == "spheres") {
     scene.spheres.back().center_m = scene.cloth.center_m - glm::dvec3(0.0, 0.8 * scene.cloth.height_m, 0.0);
     scene.spheres.back().radius_m = 0.25 * scene.cloth.width_m;
@@ -200,6 +203,8 @@ bool section_widget(std::string_view section, Scene& scene, const std::string& c
     if (on) changed |= is_list ? list_widgets(section, scene) : item_widgets(section, scene, 0);
     ImGui::TreePop();
   }
+  if (changed && section == "cloths")  // what held a cloth goes with it
+    std::erase_if(scene.pins, [&](const PinSection& pin) { return pin.cloth >= cloth_count(scene); });
   ImGui::PopID();
   return changed;
 }

@@ -46,7 +46,8 @@ std::optional<Pick> pick_cloth(const Grid& grid, const State& state, const Ray& 
     const std::uint32_t corner = first >= hit->u && first >= hit->v ? a : (hit->u >= hit->v ? b : c);
     best = Pick{corner, ray.origin + hit->distance * ray.direction, hit->distance};
   };
-  for (std::uint32_t j = 0; j + 1 < grid.ny; ++j) {
+  for (std::uint32_t j = 0; j + 1 < grid.rows(); ++j) {
+    if (grid.own_row(j) + 1 == grid.ny) continue;  // below it is another cloth
     for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
       const std::uint32_t corner = grid.index(i, j), below = grid.index(i, j + 1);
       test(corner, below, corner + 1);

@@ -83,7 +83,7 @@ void RunningScene::reset() {
   for (HandPin& pin : hand_pins_) {
     const auto i = static_cast<std::uint32_t>(std::lround(pin.at.x * (grid.nx - 1)));
     const auto j = static_cast<std::uint32_t>(std::lround(pin.at.y * (grid.ny - 1)));
-    pin.place_m = start.position[grid.index(i, j)];
+    pin.place_m = start.position[grid.index(i, pin.cloth * grid.ny + j)];
   }
   begin_again();
 }
@@ -121,7 +121,8 @@ Scene RunningScene::composed(const Scene& scene) const {
   Scene whole = scene;
   const double cell_m = scene.cloth.width_m / std::max(1.0, scene.cloth.resolution - 1.0);
   // Three quarters of a cell hold a particle wherever the pin lies.
-  for (const HandPin& pin : hand_pins_) whole.pins.push_back({.at = pin.at, .radius_m = 0.75 * cell_m});
+  for (const HandPin& pin : hand_pins_)
+    whole.pins.push_back({.at = pin.at, .radius_m = 0.75 * cell_m, .cloth = pin.cloth});
   return whole;
 }
 
@@ -224,19 +225,18 @@ void RunningScene::begin_again() {
 void RunningScene::toggle_pin(std::uint32_t particle, const glm::dvec3& place_m) {
   release();
   const Grid& grid = model().grid;
-  const glm::dvec2 at{static_cast<double>(particle % grid.nx) / (grid.nx - 1),
-                      static_cast<double>(particle / grid.nx) / (grid.ny - 1)};
+  const PinSection here = Hand::pin(grid, particle);
   Scene next = scene_;
   const std::vector<HandPin> before = hand_pins_;
   if (model().inverse_mass_at(particle, simulation_->time_s()) > 0.0) {
-    hand_pins_.push_back({at, place_m});
+    hand_pins_.push_back({here.at, place_m, here.cloth});
   } else {
-    const auto reaches = [&](const glm::dvec2& pin, double radius_m) {
-      return std::hypot((pin.x - at.x) * grid.width_m(), (pin.y - at.y) * grid.height_m()) <=
-             radius_m * (1.0 + 1e-6);
+    const auto reaches = [&](const auto& pin, double radius_m) {
+      const glm::dvec2 way = (pin.at - here.at) * glm::dvec2(grid.width_m(), grid.height_m());
+      return pin.cloth == here.cloth && std::hypot(way.x, way.y) <= radius_m * (1.0 + 1e-6);
     };
-    std::erase_if(hand_pins_, [&](const HandPin& pin) { return reaches(pin.at, 0.75 * grid.spacing_m); });
-    std::erase_if(next.pins, [&](const PinSection& pin) { return reaches(pin.at, pin.radius_m); });
+    std::erase_if(hand_pins_, [&](const HandPin& pin) { return reaches(pin, 0.75 * grid.spacing_m); });
+    std::erase_if(next.pins, [&](const PinSection& pin) { return reaches(pin, pin.radius_m); });
   }
   try {
     adopt(next, true);

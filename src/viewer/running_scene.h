@@ -45,6 +45,7 @@ struct WatchedFrame {
 struct HandPin {
   glm::dvec2 at{0.0};       ///< fractions of width and height
   glm::dvec3 place_m{0.0};  ///< where it holds the cloth
+  std::uint32_t cloth = 0;  ///< which one
 };
 
 class RunningScene {

@@ -110,5 +110,24 @@ TEST(Mesh, BallIsClosed) {
   for (const auto& [from, to] : edges) EXPECT_TRUE(edges.contains({to, from}));
 }
 
+// Of three cloths the lists are those of one, thrice, with no triangle or line from one to the next.
+TEST(ClothMesh, joins_no_two_cloths) {
+  const Grid one = grid_5x4();
+  Grid three = one;
+  three.cloths = 3;
+  for (const std::uint32_t stride : {1u, 2u})
+    for (const auto list : {cloth_triangles, cloth_half_triangles, cloth_lines}) {
+      const std::vector<std::uint32_t> alone = list(one, stride), all = list(three, stride);
+      ASSERT_EQ(all.size(), 3 * alone.size());
+      std::multiset<std::uint32_t> expected, got(all.begin(), all.end());
+      for (std::uint32_t cloth = 0; cloth < 3; ++cloth)
+        for (const std::uint32_t index : alone) expected.insert(cloth * one.count() + index);
+      EXPECT_EQ(got, expected);
+      const std::size_t corners = list == cloth_lines ? 2 : 3;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        EXPECT_EQ(all[k] / one.count(), all[k / corners * corners] / one.count());
+    }
+}
+
 }  // namespace
 }  // namespace weft::test

@@ -37,7 +37,7 @@ TEST(Effects, EveryOptionalSectionIsOne) {
   for (const std::string_view section : section_names()) {
     const bool always = section.empty() || section == "cloth" || section == "material" ||
                         section == "solver" || section == "expect";
-    if (always) continue;
+    if (always || section == "cloths") continue;  // more cloth, which cannot be there and idle
     EXPECT_TRUE(std::ranges::any_of(effects(), [&](const Effect& e) { return e.name == section; }))
         << section << " has no row in src/scene/effects.cpp";
   }

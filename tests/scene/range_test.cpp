@@ -15,6 +15,8 @@ const char* const kEverything = R"(
 [cloth]
 resolution = 5
 center = [0, 50, 0]
+[[cloths]]
+center = [0, 60, 0]
 [[pins]]
 at = [0, 0]
 radius = 1000
@@ -61,7 +63,14 @@ bool is_numeric(const Parameter& p) { return p.kind != ParameterKind::word && p.
 std::string exact(double value) { return fmt::format("{}", value); }
 
 /// A cloth's own sizes are tried alone: the pins and colliders of the full scene would not fit every size.
-std::string scene_for(const Parameter& p) { return p.section == "cloth" ? "[cloth]\n" : kEverything; }
+/// A pin may name every cloth there can be where there are as many.
+std::string scene_for(const Parameter& p) {
+  if (p.section == "cloth") return "[cloth]\n";
+  std::string text = kEverything;
+  if (p.section == "pins" && p.key == "cloth")
+    for (int further = 2; further < 64; ++further) text += "[[cloths]]\ncenter = [0, 70, 0]\n";
+  return text;
+}
 
 TEST(Ranges, EveryRowIsWellFormed) {
   for (const Parameter& p : parameters()) {

@@ -33,12 +33,7 @@ TEST(Equilibrium, AHungStripStretchesAsTheClosedFormSays) {
   EXPECT_NEAR(sunk_m, expected_m, 1e-3 * expected_m);  // bending stiffens it by parts in a million
 }
 
-TEST(Equilibrium, NoForceIsLeftByTheIndependentForcesOfThePasses) {
-  Scene scene = small_scene();
-  scene.cloth.orientation = Orientation::horizontal;
-  scene.pins.push_back(PinSection{{0.0, 1.0}, 0.05});
-  scene.pins.push_back(PinSection{{1.0, 1.0}, 0.05});
-  const Model model = build_model(scene);
+void expect_no_force_left(const Model& model) {
   const Equilibrium rest = find_equilibrium(model, start_state(model), {});
   ASSERT_TRUE(rest.found()) << rest.reason;
   State state = start_state(model);
@@ -49,6 +44,18 @@ TEST(Equilibrium, NoForceIsLeftByTheIndependentForcesOfThePasses) {
         model.relative_inverse_mass[p] > 0.0 ? model.interior_mass_kg / model.relative_inverse_mass[p] : 0.0;
     EXPECT_LE(mass_kg * glm::length(left[p]), 1.1e-9) << p;
   }
+}
+
+TEST(Equilibrium, NoForceIsLeftByTheIndependentForcesOfThePasses) {
+  Scene scene = small_scene();
+  scene.cloth.orientation = Orientation::horizontal;
+  scene.pins.push_back(PinSection{{0.0, 1.0}, 0.05});
+  scene.pins.push_back(PinSection{{1.0, 1.0}, 0.05});
+  expect_no_force_left(build_model(scene));
+  scene.cloths = {{.center_m = {3.0, 0.0, 0.0}}};  // a second one, held by one side
+  scene.pins.push_back(PinSection{.at = {0.0, 0.0}, .cloth = 1});
+  scene.pins.push_back(PinSection{.at = {0.0, 1.0}, .cloth = 1});
+  expect_no_force_left(build_model(scene));
 }
 
 TEST(Equilibrium, SaysWhatHasNone) {

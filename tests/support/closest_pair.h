@@ -25,7 +25,9 @@ inline ClosestPair closest_pair(const Model& model, const State& state) {
       if (!(q < closest.ratio * closest.ratio * thickness_m * thickness_m)) continue;
       const double di = double(a % grid.nx) - double(b % grid.nx),
                    dj = double(a / grid.nx) - double(b / grid.nx);
-      const double limit_m = std::min(thickness_m, grid.spacing_m * std::hypot(di, dj));
+      const bool one_cloth = a / (grid.nx * grid.ny) == b / (grid.nx * grid.ny);
+      const double flat_m = one_cloth ? grid.spacing_m * std::hypot(di, dj) : thickness_m;
+      const double limit_m = std::min(thickness_m, flat_m);
       if (std::sqrt(q) < closest.ratio * limit_m) closest = {std::sqrt(q) / limit_m, a, b};
     }
   return closest;

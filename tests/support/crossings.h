@@ -16,8 +16,8 @@ using Corners = std::array<std::uint32_t, 3>;
 
 inline std::vector<Corners> triangles_of(const Grid& g) {
   std::vector<Corners> triangles;
-  for (std::uint32_t j = 0; j + 1 < g.ny; ++j)
-    for (std::uint32_t i = 0; i + 1 < g.nx; ++i) {
+  for (std::uint32_t j = 0; j + 1 < g.rows(); ++j)
+    for (std::uint32_t i = 0; i + 1 < g.nx && (j + 1) % g.ny != 0; ++i) {  // nothing joins two cloths
       triangles.push_back({g.index(i, j), g.index(i, j + 1), g.index(i + 1, j)});
       triangles.push_back({g.index(i + 1, j), g.index(i, j + 1), g.index(i + 1, j + 1)});
     }
@@ -26,11 +26,12 @@ inline std::vector<Corners> triangles_of(const Grid& g) {
 
 inline std::vector<std::array<std::uint32_t, 2>> edges_of(const Grid& g) {
   std::vector<std::array<std::uint32_t, 2>> edges;
-  for (std::uint32_t j = 0; j < g.ny; ++j)
+  for (std::uint32_t j = 0; j < g.rows(); ++j)
     for (std::uint32_t i = 0; i < g.nx; ++i) {
+      const bool below = (j + 1) % g.ny != 0;
       if (i + 1 < g.nx) edges.push_back({g.index(i, j), g.index(i + 1, j)});
-      if (j + 1 < g.ny) edges.push_back({g.index(i, j), g.index(i, j + 1)});
-      if (i + 1 < g.nx && j + 1 < g.ny) edges.push_back({g.index(i + 1, j), g.index(i, j + 1)});
+      if (below) edges.push_back({g.index(i, j), g.index(i, j + 1)});
+      if (i + 1 < g.nx && below) edges.push_back({g.index(i + 1, j), g.index(i, j + 1)});
     }
   return edges;
 }
