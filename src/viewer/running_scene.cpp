@@ -131,7 +131,7 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   const Clock::time_point start = Clock::now();
   const Model model = build_model(composed(next));
   const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth) &&
-                    simulation_->plan().solver->name == next.solver.name;
+                    scene_.cloths == next.cloths && simulation_->plan().solver->name == next.solver.name;
   figures_.kept_plan = same && !anew && simulation_->adopt(model);
   if (!figures_.kept_plan) {
     std::optional<State> state;

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scenes.h"
+#include "sim/host_simulation.h"
 #include "sim/simulation.h"
 #include "support/closest_pair.h"
 #include "support/crossings.h"
@@ -191,6 +192,22 @@ std::size_t most_crossings(const Scene& scene, int frames) {
 TEST(Cloths, one_dropped_on_another_stays_above_it) {
   EXPECT_EQ(most_crossings(dropped(true), 60), 0u);
   EXPECT_GT(most_crossings(dropped(false), 20), 0u) << "nothing to hold in this test";
+}
+
+// Two cloths of 4 rows have the buffers and ranges of one of 8, and are not the same plan.
+TEST(Cloths, are_not_taken_for_one_cloth_of_as_many_rows) {
+  Scene one =
+      parse_scene("[cloth]\nresolution = 8\nheight = 1\n[gravity]\n[[pins]]\nat = [0, 0]\n", "one.toml")
+          .scene;
+  Scene two = one;
+  two.cloth.height_m = 3.0 / 7.0;
+  two.cloths = {{.center_m = {3.0, 0.0, 0.0}}};
+  one.solver.substeps = two.solver.substeps = 20;
+  const Model as_one = build_model(one), as_two = build_model(two);
+  ASSERT_EQ(as_one.grid.rows(), as_two.grid.rows());
+  const auto simulation = make_host_reference(as_one, find_solver("leapfrog"), "f32");
+  EXPECT_EQ(simulation->plan().bytes(), compile_plan(as_two, find_solver("leapfrog")).bytes());
+  EXPECT_FALSE(simulation->adopt(as_two));
 }
 
 TEST(Cloths, refuse_what_is_for_one_cloth) {

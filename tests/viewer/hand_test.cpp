@@ -53,6 +53,24 @@ TEST(Pick, FindsTheParticleInFrontFromBothSides) {
   }
 }
 
+// Between two cloths there is nothing to take; a pin at a particle of the second holds that one.
+TEST(Pick, TellsClothsApart) {
+  Scene scene = sheet(9);
+  scene.cloths = {{.center_m = {3.0, 0.0, 0.0}}};
+  const Model model = build_model(scene);
+  const State flat = start_state(model);
+  const std::uint32_t wanted = model.grid.index(6, model.grid.ny + 2);
+  const auto pick =
+      pick_cloth(model.grid, flat, {flat.position[wanted] + glm::dvec3(0.01, 0.01, 1.0), {0, 0, -1}});
+  ASSERT_TRUE(pick);
+  EXPECT_EQ(pick->particle, wanted);
+  EXPECT_FALSE(pick_cloth(model.grid, flat, {{1.5, 0.0, 1.0}, {0, 0, -1}}));
+  scene.pins = {Hand::pin(model.grid, wanted)};
+  const Model pinned = build_model(scene);
+  EXPECT_EQ(pinned.relative_inverse_mass[wanted], 0.0);
+  EXPECT_GT(pinned.relative_inverse_mass[model.grid.index(6, 2)], 0.0);
+}
+
 TEST(Pick, TakesTheNearestLayerAndMissesBesideTheCloth) {
   const Model model = build_model(sheet(9));
   State folded = start_state(model);
