@@ -10,7 +10,8 @@ TEST_F(LongClothsGpuTest, equal_their_mirrors_with_every_solver_and_precision) {
   equal_their_mirrors("leapfrog", "f64", kLayers + kAir);
   equal_their_mirrors("leapfrog", "f32k", kAir);
   equal_their_mirrors("xpbd", "f64", "");
-  for (const char* solver : {"symplectic-euler", "velocity-verlet", "verlet", "euler", "trapezoid", "rk4"})
+  // All but explicit Euler, which blows up with one cloth, too.
+  for (const char* solver : {"symplectic-euler", "velocity-verlet", "verlet", "trapezoid", "rk4"})
     equal_their_mirrors(solver, "f32", "");
 }
 
