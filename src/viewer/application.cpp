@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <thread>
 
 #include "core/error.h"
 #include "gpu/shader.h"
@@ -23,8 +22,7 @@ namespace {
 // Time for the simulation between two pictures: as much as drawing takes, within these. One chunk more may
 // come on top, of at most about 50 ms.
 constexpr double kBudgetLeast_s = 0.028, kBudgetMost_s = 0.045;
-constexpr double kRest_s = 0.1;   // between looks at a window that shows nothing new
-constexpr double kAwake_s = 0.5;  // after the last event
+constexpr double kRest_s = 0.1;  // between looks at a window that shows nothing new
 
 double seconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -152,6 +150,12 @@ void Application::run() {
     if (!running_.paused()) running_.measure();
     attempt([&] { costs_.follow(running_); });
     attempt([&] { find_kernel(elapsed_s); });
+    look_at_pictures(elapsed_s);
+    if (!picture_due()) {
+      log();
+      pace();
+      continue;
+    }
     gui_.begin_frame();
     const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
     show_accuracy();
@@ -323,8 +327,9 @@ void Application::paint() {
   const double film_s = seconds(Clock::now() - film_start_);
   const bool screenshot = std::exchange(view_.screenshot, false);
   std::optional<Painted> painted;
-  view_.look.stride =
-      device_.info().software ? stride_for(running_.model().grid, kPictureCells) : std::uint32_t{1};
+  view_.look.stride = device_.info().software
+                          ? stride_for(running_.model().grid, std::min(kPictureCells, share_.cells_most()))
+                          : std::uint32_t{1};
   // A picture that cannot be drawn is no mistake of a person's: it ends the program with its reason.
   painted = painter_.paint(running_, window_.framebuffer(),
                            {.area = view_.area,
@@ -337,6 +342,9 @@ void Application::paint() {
     return;
   }
   ++pictures_;
+  const Clock::time_point now = Clock::now();
+  const double took_s = std::max(seconds(now - std::exchange(latest_picture_, now)), 1e-4);
+  pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;
   attempt([&] {
     if (painted->screenshot) save_screenshot(*painted->screenshot);
   });
@@ -347,17 +355,6 @@ void Application::paint() {
     end_film();
     view_.complain(mistake.what());
   }
-}
-
-/// Displays do not always set the pace (a virtual one never does): wait for the next picture's time.
-void Application::pace() {
-  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(picture_s_));
-  const Clock::time_point now = Clock::now();
-  const double took_s = std::max(seconds(now - latest_), picture_s_);
-  pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;
-  next_picture_ = std::max(next_picture_ + period, now);
-  if (next_picture_ - now > period) next_picture_ = now + period;
-  std::this_thread::sleep_until(next_picture_);
 }
 
 void Application::find_kernel(double elapsed_s) {
@@ -371,6 +368,7 @@ PanelFacts Application::facts() const {
   facts.pictures_per_s = pictures_per_s_;
   facts.draw_ms = painter_.draw_ms();
   facts.scale = painter_.scale();
+  facts.share = share_.text(picture_s_, painter_.scale());
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
   facts.costs = &costs_;

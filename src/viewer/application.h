@@ -15,6 +15,7 @@
 #include "viewer/kernel_finder.h"
 #include "viewer/painter.h"
 #include "viewer/panels.h"
+#include "viewer/picture_share.h"
 #include "viewer/running_scene.h"
 #include "viewer/state_log.h"
 #include "viewer/swapchain.h"
@@ -33,11 +34,14 @@ class Application {
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr double kAwake_s = 0.5;  ///< after the last event
 
   void handle_input(double elapsed_s);
   void handle_panels(const PanelWishes&);
   void show_accuracy();
   void paint();
+  bool picture_due() const;
+  void look_at_pictures(double elapsed_s);
   void pace();
   void find_kernel(double elapsed_s);
   void open(const std::string& which);
@@ -68,6 +72,7 @@ class Application {
   Controls controls_;
   Panels panels_;
   ViewState view_;
+  PictureShare share_;
   PanelFacts constant_facts_;
   EffectCosts costs_;
   KernelFinder finder_;
@@ -76,8 +81,8 @@ class Application {
   std::optional<Scene> pending_;
   std::unique_ptr<Film> film_;
   bool scale_was_automatic_ = false;
-  Clock::time_point start_ = Clock::now(), latest_ = start_, next_picture_ = start_, film_start_ = start_,
-                    last_event_ = start_;
+  Clock::time_point start_ = Clock::now(), latest_ = start_, next_turn_ = start_, film_start_ = start_,
+                    last_event_ = start_, latest_picture_ = start_;
   double picture_s_ = 1.0 / 60.0, pictures_per_s_ = 0.0, longest_gap_ms_ = 0.0;
   std::uint64_t pictures_ = 0, rebuilds_ = 0;
 };

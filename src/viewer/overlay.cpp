@@ -101,8 +101,10 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));
   line(fmt::format("simulation {} a frame", frame_text(figures)));
   line(fmt::format("drawing {:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.pictures_per_s));
+  if (!facts.share.empty()) line(kWarning, facts.share);
   if (view.look.stride > 1) line(fmt::format("drawn with 1 of {0} x {0} particles", view.look.stride));
-  if (facts.scale < 0.999) line(fmt::format("drawn at {:.0f} % of the size", 100.0 * facts.scale));
+  if (facts.scale < 0.999 && facts.share.empty())
+    line(fmt::format("drawn at {:.0f} % of the size", 100.0 * facts.scale));
   if (figures.measured_at_s >= 0.0)
     line(fmt::format("largest stretch {:.1f} %", 100.0 * figures.max_stretch));
   if (facts.validating)

@@ -81,6 +81,15 @@ void Painter::set_scale(double scale, bool automatic) {
   automatic_ = automatic;
 }
 
+void Painter::set_scale_most(double scale) {
+  if (scale == scale_most_) return;
+  scale_most_ = scale;
+  if (!automatic_ || scale_ <= scale) return;
+  scale_ = scale;
+  draw_ms_ = 0.0;
+  settled_until_ = painted_ + kSettle_pictures;
+}
+
 /// Draws the scene that runs now: the same renderer on another model, so that its pipelines stay.
 void Painter::follow(const RunningScene& running) {
   if (!renderer_) {
@@ -236,7 +245,7 @@ void Painter::adapt_scale() {
   const auto* chosen = now;
   const auto costs = [&](const double* scale) { return draw_ms_ * *scale * *scale / (*now * *now); };
   while (chosen != std::begin(kScales) && costs(chosen) > kSlow_ms) --chosen;
-  if (draw_ms_ < kQuick_ms && now + 1 != std::end(kScales)) {
+  if (draw_ms_ < kQuick_ms && now + 1 != std::end(kScales) && *(now + 1) <= scale_most_) {
     if (costs(now + 1) < kSlow_ms) chosen = now + 1;
   }
   settled_until_ = painted_ + kSettle_pictures;

@@ -49,6 +49,8 @@ class Painter {
   double scale() const { return scale_; }
   /// @param automatic  follow the time drawing takes; else `scale` is kept
   void set_scale(double scale, bool automatic);
+  /// No larger a scale while it is automatic: what the cores have to spare for drawing.
+  void set_scale_most(double scale);
   bool automatic_scale() const { return automatic_; }
   double draw_ms() const { return draw_ms_; }  ///< on the device, smoothed; 0: not known
   VkSampleCountFlagBits samples() const { return samples_; }
@@ -82,7 +84,7 @@ class Painter {
   gpu::Image scene_image_;
   gpu::Buffer screenshot_, film_;
   std::uint64_t shown_version_ = 0, painted_ = 0, settled_until_ = 0;
-  double scale_ = 1.0, draw_ms_ = 0.0;
+  double scale_ = 1.0, scale_most_ = 1.0, draw_ms_ = 0.0;
   bool automatic_ = false;
 };
 

@@ -36,6 +36,7 @@ struct PanelFacts {
   double draw_ms = 0.0;
   double scale = 1.0;
   bool automatic_scale = false;
+  std::string share;  ///< why there are fewer and smaller pictures; empty: there are not
   std::uint32_t samples = 1;
   std::string present_mode;
   std::vector<std::string> present_modes;
