@@ -2,10 +2,7 @@
 #include "native/cloth.h"
 
 #include <algorithm>
-#include <cstring>
-#include <map>
 #include <new>
-#include <string>
 
 #include "passes/coefficients.h"
 #include "passes/contact.h"
@@ -26,58 +23,6 @@ std::size_t stride_for(std::size_t nx, std::size_t pad) {
 
 void copy(const glm::vec3& from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 
-/// How many triples have the pair (place, place + 1) of a line as neighbours.
-std::size_t triples_of(std::size_t place, std::size_t count) {
-  return (place >= 1 ? 1u : 0u) + (place + 2 < count ? 1u : 0u);
-}
-
-/// The coefficients of one particle's forward pairs; null where the pair does not exist.
-class PairRows {
- public:
-  explicit PairRows(const Model& model)
-      : rows_(spring_rows<float>(model)), nx_(model.grid.nx), ny_(model.grid.ny) {}
-
-  const glm::vec4* find(PairName pair, std::size_t i, std::size_t j) const {
-    const bool right = i + 1 < nx_, below = j + 1 < ny_;
-    const std::size_t column_edge = i == 0 || !right ? 1 : 0, row_edge = j == 0 || !below ? 1 : 0;
-    switch (pair) {
-      case kPair01: return below ? &rows_.structural[(2 + column_edge) * 3 + triples_of(j, ny_)] : nullptr;
-      case kPair10: return right ? &rows_.structural[row_edge * 3 + triples_of(i, nx_)] : nullptr;
-      case kPairT:
-      case kPair11: return right && below ? &rows_.shear : nullptr;
-      case kPair20: return i + 2 < nx_ ? &rows_.flex[row_edge] : nullptr;
-      case kPair02: return j + 2 < ny_ ? &rows_.flex[2 + column_edge] : nullptr;
-      case kPairCount: break;
-    }
-    return nullptr;
-  }
-
- private:
-  SpringRows<float> rows_;
-  std::size_t nx_, ny_;
-};
-
-Block make_block(const Model& model, const PairRows& rows, std::size_t first, std::size_t j) {
-  Block block{};
-  const auto interior = static_cast<float>(1.0 / model.interior_mass_kg);
-  for (std::size_t lane = 0; lane < kColumns; ++lane) {
-    const std::size_t i = first + lane;
-    if (i < model.grid.nx) {
-      const double relative = model.relative_inverse_mass[j * model.grid.nx + i];
-      block.inverse_mass[lane] = static_cast<float>(relative) * interior;
-      for (int pair = 0; pair < kPairCount; ++pair) {
-        const glm::vec4* row = rows.find(static_cast<PairName>(pair), i, j);
-        if (row == nullptr) continue;
-        block.pairs[pair].k[lane] = row->x;
-        block.pairs[pair].l[lane] = row->y;
-        block.pairs[pair].c[lane] = row->z;
-      }
-    }
-    if (block.inverse_mass[lane] == 0.0f) block.has_fixed = 1;
-  }
-  return block;
-}
-
 bool is_on(std::span<const Constant> constants, IntegrateConstant id) {
   for (const Constant& constant : constants)
     if (constant.name == kIntegrateConstantNames[id]) return constant.value != 0;
@@ -92,6 +37,37 @@ std::uint32_t variant_of(std::span<const Constant> constants) {
          bit(kAir, kHasAir) | bit(kContact, kHasFloor, kHasSpheres);
 }
 
+Solid solid_of(const SolidRow<float>& row) {
+  Solid solid{.reach = row.reach, .deep = row.deep, .friction = row.friction};
+  copy(row.center, solid.center);
+  copy(row.start, solid.start);
+  copy(row.velocity, solid.velocity);
+  copy(row.spin, solid.spin);
+  copy(row.half, solid.half);
+  for (int axis = 0; axis < 3; ++axis) {
+    copy(row.axes[axis], solid.axes[axis]);
+    copy(row.start_axes[axis], solid.start_axes[axis]);
+  }
+  return solid;
+}
+
+Air air_of(const Model& model, const KickDrift& kick) {
+  const AirRow<float> row = air_row<float>(model, kick);
+  Air air{.cells_1_m = row.cells_1_m,
+          .slice_share = row.slice_share,
+          .noise_m_s = row.noise_m_s,
+          .drag = row.drag,
+          .lift = row.lift,
+          .slice = static_cast<std::uint32_t>(row.slice),
+          .seed = model.scene.wind ? model.scene.wind->seed : 0,
+          .has_noise = has_wind_noise(model.scene),
+          .noise_farthest = shared::kNoiseFarthest,
+          .noise_period_mask = shared::kNoisePeriodMask};
+  copy(row.wind, air.wind);
+  copy(row.origin, air.origin);
+  return air;
+}
+
 }  // namespace
 
 void AlignedDelete::operator()(float* memory) const { ::operator delete[](memory, kVectorAlignment); }
@@ -103,8 +79,10 @@ Floats make_floats(std::size_t count) {
 }
 
 KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
-  const std::size_t per_row = model.scene.spheres.size();
-  spheres_.reserve(rows.size() * per_row);
+  spheres_.reserve(rows.size() * model.scene.spheres.size());
+  pins_.reserve(rows.size() * model.moved_pins.size());
+  air_.reserve(rows.size());
+  solids_.reserve(rows.size() * solid_count(model));
   kicks_.reserve(rows.size());
   for (const KickDrift& from : rows) {
     const SubstepRow<float> row = substep_row<float>(model, from);
@@ -123,17 +101,30 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
       copy(at.velocity, sphere.velocity);
       spheres_.push_back(sphere);
     }
+    if (model.scene.aerodynamics) kick.air = &air_.emplace_back(air_of(model, from));
+    kick.solids = solids_.data() + solids_.size();
+    for (const SolidRow<float>& solid : row.solids) solids_.push_back(solid_of(solid));
+    kick.pins = pins_.data() + pins_.size();
+    for (const PinRow<float>& at : row.pins) {
+      PinPlace pin{.released = at.released ? 1u : 0u};
+      copy(at.offset, pin.offset);
+      copy(at.velocity, pin.velocity);
+      pins_.push_back(pin);
+    }
     kicks_.push_back(kick);
   }
 }
 
 Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad)
-    : nx_(model.grid.nx), ny_(model.grid.ny), variant_(variant_of(constants)) {
+    : nx_(model.grid.nx),
+      ny_(model.grid.ny),
+      variant_(variant_of(constants)),
+      relative_inverse_mass_(model.relative_inverse_mass.begin(), model.relative_inverse_mass.end()),
+      broken_links_(model.scene.tearing ? model.grid.count() : 0),
+      blocks_(model, changes()) {
   sheet_.stride = stride_for(nx_, pad);
-  sheet_.block_count = (nx_ + kColumns - 1) / kColumns;
   state_ = make_floats((ny_ + 2) * row_floats());
-  relative_inverse_mass_.assign(model.relative_inverse_mass.begin(), model.relative_inverse_mass.end());
-  make_blocks(model);
+  point_at_blocks();
   if (is_on(constants, kHasGravity)) copy(model.scene.gravity->acceleration_m_s2, outside_.gravity);
   outside_.has_gravity = is_on(constants, kHasGravity);
   outside_.has_wind = is_on(constants, kHasWind);
@@ -146,30 +137,53 @@ Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_
   }
 }
 
-void Cloth::make_blocks(const Model& model) {
-  const PairRows rows(model);
-  std::map<std::string, std::uint32_t> known;  // a block's bytes → its place
-  block_of_.reserve(ny_ * sheet_.block_count);
-  for (std::size_t j = 0; j < ny_; ++j) {
-    for (std::size_t b = 0; b < sheet_.block_count; ++b) {
-      const Block block = make_block(model, rows, b * kColumns, j);
-      const std::string bytes(reinterpret_cast<const char*>(&block), sizeof block);
-      const auto [place, is_new] = known.try_emplace(bytes, static_cast<std::uint32_t>(blocks_.size()));
-      if (is_new) blocks_.push_back(block);
-      block_of_.push_back(place->second);
-    }
-  }
-  sheet_.blocks = blocks_.data();
-  sheet_.block_of = block_of_.data();
-}
-
 std::uint64_t Cloth::bytes() const {
-  return (ny_ + 2) * row_floats() * sizeof(float) + blocks_.size() * sizeof(Block) +
-         block_of_.size() * sizeof(std::uint32_t) + relative_inverse_mass_.size() * sizeof(float);
+  return (ny_ + 2) * row_floats() * sizeof(float) + blocks_.bytes() +
+         relative_inverse_mass_.size() * sizeof(float) + broken_links_.size() * sizeof(std::uint32_t);
 }
 
-void Cloth::load(const HostBuffers<float>& buffers) {
-  for (std::size_t j = 0; j < ny_; ++j) {
+void Cloth::point_at_blocks() {
+  sheet_.block_count = blocks_.per_row();
+  sheet_.blocks = blocks_.data();
+  sheet_.block_of = blocks_.of();
+}
+
+void Cloth::refresh_around(std::span<const std::uint32_t> particles) {
+  for (const std::uint32_t particle : particles) blocks_.refresh_around(particle, changes());
+  point_at_blocks();
+}
+
+void Cloth::set_relative_inverse_mass(std::uint32_t particle, float relative) {
+  relative_inverse_mass_[particle] = relative;
+  blocks_.refresh(particle / nx_, particle % nx_ / kColumns, changes());
+  point_at_blocks();
+}
+
+void Cloth::place(std::uint32_t particle, const float (&x)[3], const float (&v)[3]) {
+  float* at = row(particle / nx_) + kColumns + particle % nx_;
+  for (int axis = 0; axis < 3; ++axis) {
+    at[axis * sheet_.stride] = x[axis];
+    at[(3 + axis) * sheet_.stride] = v[axis];
+  }
+}
+
+bool Cloth::take_changes(const HostBuffers<float>& buffers) {
+  const auto& position = buffers[BufferId::position];
+  const auto& links = buffers.words_of(BufferId::broken_links);
+  std::vector<std::uint32_t> changed;
+  for (std::uint32_t p = 0; p < position.size(); ++p) {
+    const bool torn = !links.empty() && links[p] != broken_links_[p];
+    if (!torn && position[p].w == relative_inverse_mass_[p]) continue;
+    relative_inverse_mass_[p] = position[p].w;
+    if (torn) broken_links_[p] = links[p];
+    changed.push_back(p);
+  }
+  refresh_around(changed);
+  return !changed.empty();
+}
+
+void Cloth::load(const HostBuffers<float>& buffers, std::size_t first, std::size_t last) {
+  for (std::size_t j = first; j < last; ++j) {
     float* at = row(j) + kColumns;
     const glm::vec4* x = buffers[BufferId::position].data() + j * nx_;
     const glm::vec4* v = buffers[BufferId::velocity].data() + j * nx_;

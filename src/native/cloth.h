@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "native/kernel.h"
+#include "native/blocks.h"
 #include "passes/pass.h"
 
 namespace weft::native {
@@ -29,6 +29,9 @@ class KickTable {
 
  private:
   std::vector<Sphere> spheres_;
+  std::vector<Solid> solids_;
+  std::vector<PinPlace> pins_;
+  std::vector<Air> air_;
   std::vector<Kick> kicks_;
 };
 
@@ -48,20 +51,30 @@ class Cloth {
   float* row(std::size_t j) { return state_.get() + j * row_floats(); }
   const std::vector<float>& relative_inverse_mass() const { return relative_inverse_mass_; }
   std::uint64_t bytes() const;
-  std::size_t distinct_blocks() const { return blocks_.size(); }
+  std::size_t distinct_blocks() const { return blocks_.distinct(); }
 
-  void load(const HostBuffers<float>& buffers);
+  /// Takes positions and velocities of rows [first, last).
+  void load(const HostBuffers<float>& buffers, std::size_t first, std::size_t last);
+  /// Takes who is fixed and which links are broken; returns whether anything was otherwise.
+  bool take_changes(const HostBuffers<float>& buffers);
+  void set_relative_inverse_mass(std::uint32_t particle, float relative);
+  void place(std::uint32_t particle, const float (&x)[3], const float (&v)[3]);
+  /// By particle; empty where nothing tears. Whoever breaks one says so to refresh_around.
+  std::span<std::uint32_t> broken_links() { return broken_links_; }
+  /// Coefficients anew where links of these particles have broken.
+  void refresh_around(std::span<const std::uint32_t> particles);
 
  private:
-  void make_blocks(const Model& model);
+  ClothChanges changes() const { return {relative_inverse_mass_, broken_links_}; }
+  void point_at_blocks();
   std::size_t nx_, ny_;
   Sheet sheet_{};
   Outside outside_{};
   std::uint32_t variant_ = 0;
   Floats state_;
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> block_of_;
   std::vector<float> relative_inverse_mass_;
+  std::vector<std::uint32_t> broken_links_;
+  Blocks blocks_;
 };
 
 }  // namespace weft::native

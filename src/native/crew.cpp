@@ -1,4 +1,5 @@
-// Between two rounds helpers sleep, and only those that have work are woken: an idle cloth takes no core.
+// Between two rounds helpers spin shortly, then sleep, and only those that have work are woken: an idle cloth
+// takes no core.
 #include "native/crew.h"
 
 namespace weft::native {
@@ -29,7 +30,7 @@ void Crew::call(std::uint32_t own) {
 
 void Crew::help(std::uint32_t own) {
   for (std::uint32_t seen = 0;; ++seen) {
-    calls_[own].round.wait(seen, std::memory_order_acquire);
+    wait_for(calls_[own].round, seen + 1);
     if (stopping_) return;
     (*task_)(own);
     finished_.fetch_add(1, std::memory_order_release);

@@ -53,30 +53,27 @@ Constants effects_of(const Plan& plan) {
   return effects;
 }
 
-/// Passes of the substep, and those that sweep at a frame's end.
-bool has_code_for(const PlanStep& step) {
-  static constexpr std::array kSwept{&integrate, &velocity_verlet_step, &xpbd_predict, &xpbd_spring,
-                                     &xpbd_bend, &xpbd_finish};
-  if (step.block == weft::Block::frame_end && !step.pass->swaps_state) return true;  // by its mirror
-  return step.block != weft::Block::frame_start && std::ranges::count(kSwept, step.pass) > 0;
-}
-
 Cloth cloth_for(const Model& model, const Plan& plan) {
   return Cloth(model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns);
 }
 
 }  // namespace
 
+Means means_of(const Pass& pass) {
+  static constexpr std::array kSwept{&integrate,    &integrate_torn, &velocity_verlet_step,
+                                     &xpbd_predict, &xpbd_pins,      &xpbd_spring,
+                                     &xpbd_bend,    &xpbd_tethers,   &xpbd_finish};
+  if (std::ranges::count(kSwept, &pass) > 0) return Means::sweep;
+  return Effects::has(pass) ? Means::effect : Means::mirror;
+}
+
 std::string unsupported(const Plan& plan) {
   if (plan.precision != "f32") return "native computes in f32 only";
   if (plan.sheet_rows != 0) return "native has no vector code for several cloths";
-  for (const PlanStep& step : plan.steps) {
-    if (!has_code_for(step)) return fmt::format("native has no vector code for the pass {}", step.pass->name);
-    if (step.block == weft::Block::frame_end) continue;
-    for (const Constant& constant : step.constants)
-      if (constant.value != 0 && std::ranges::count(kIntegrateConstantNames, constant.name) == 0)
-        return fmt::format("native has no vector code for {}", constant.name);
-  }
+  // A solver is native's when its forces are: all else on the way runs beside them.
+  for (const PlanStep& step : plan.steps)
+    if (step.spring_evaluations > 0 && means_of(*step.pass) != Means::sweep)
+      return fmt::format("native has no vector code for the pass {}", step.pass->name);
   return {};
 }
 
@@ -90,11 +87,13 @@ Engine::Engine(const Model& model, const Plan& plan, const EngineOptions& option
 void Engine::adopt(const Model& model, const Plan& plan) {
   bands_.clear();
   xpbd_.reset();
+  effects_.reset();
   cloth_ = cloth_for(model, plan);
   furnish(model, plan);
 }
 
 void Engine::furnish(const Model& model, const Plan& plan) {
+  effects_ = std::make_unique<Effects>(cloth_, kernels_, model);
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
@@ -125,6 +124,7 @@ void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t co
   while (!kicks.empty()) {
     const Turn turn = choice_.next(static_cast<std::uint32_t>(kicks.size()));
     Crew& together = crew(turn.threads);
+    effects_->begin_drift(together, turn.threads);
     const auto began = Clock::now();
     if (xpbd_)
       xpbd_->sweep(together, turn.threads, kicks.first(turn.substeps));
@@ -134,6 +134,20 @@ void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t co
     kicks = kicks.subspan(turn.substeps);
   }
 }
+
+void Engine::load(const HostBuffers<float>& buffers) {
+  if (cloth_.take_changes(buffers) && xpbd_) xpbd_->take_masses();
+  const std::uint32_t threads = choice_.best();
+  crew(threads).run(threads, [&](std::uint32_t own) {
+    cloth_.load(buffers, own * cloth_.ny() / threads, (own + 1) * cloth_.ny() / threads);
+  });
+}
+
+void Engine::run(const PlanStep& step, const Kick& kick) {
+  if (effects_->run(step, kick, crew(choice_.best()), choice_.best()) && xpbd_) xpbd_->take_masses();
+}
+
+RowThreads& Engine::threads_for_mirrors() { return crew_rows_.emplace(crew(choice_.best()), choice_.best()); }
 
 void Engine::write_surface(const SurfaceTarget& target) {
   bands(choice_.best())

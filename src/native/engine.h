@@ -1,30 +1,33 @@
-// The vectorised CPU backend of the fused pass: a cloth, its kernel, its threads.
+// The vectorised CPU backend: a cloth, its kernels, its threads.
 #pragma once
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "native/bands.h"
+#include "native/effects.h"
+#include "native/engine_options.h"
+#include "native/surface_target.h"
 #include "native/thread_choice.h"
 #include "native/xpbd.h"
+#include "passes/parallel.h"
 #include "plan/plan.h"
 
 namespace weft::native {
 
-struct EngineOptions {
-  std::uint32_t threads = 0;  ///< exactly that many; 0: by trial, at most WEFT_THREADS and one a core
-  std::string vector;         ///< a kernel's name; empty: WEFT_VECTOR, else the widest
+/// Who computes a step of the plan.
+enum class Means {
+  sweep,   ///< kernels, together with the other steps of a sweep: Engine::sweep
+  effect,  ///< on the cloth's rows, by itself: Engine::run
+  mirror   ///< the pass's mirror over buffers, its rows split over Engine::threads_for_mirrors
 };
+Means means_of(const Pass& pass);
 
-/// Why the vector kernels do not run this plan; empty when they do.
+/// Why native does not run this plan; empty when it does.
 std::string unsupported(const Plan& plan);
-
-/// Where what is drawn goes: vec4 a particle. Velocity may be null.
-struct SurfaceTarget {
-  float *position, *normal, *velocity = nullptr;
-};
 
 class Engine {
  public:
@@ -35,8 +38,13 @@ class Engine {
 
   /// Another model of the same grid, with its plan. The state has to be loaded again.
   void adopt(const Model& model, const Plan& plan);
-  /// Takes positions and velocities.
-  void load(const HostBuffers<float>& buffers) { cloth_.load(buffers); }
+  /// Takes positions and velocities, who is fixed and what is broken.
+  void load(const HostBuffers<float>& buffers);
+  /// One step of Means::effect, with its row of the schedule.
+  void run(const PlanStep& step, const Kick& kick);
+  /// Valid until the next call of another function.
+  RowThreads& threads_for_mirrors();
+  std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }
   /// Sweeps rows [first, first + count) of a frame's schedule.
   void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count);
   void write_surface(const SurfaceTarget& target);
@@ -50,12 +58,27 @@ class Engine {
   /// What the plan's solver needs beside the cloth.
   void furnish(const Model& model, const Plan& plan);
 
+  /// The crew as mirrors know it.
+  class CrewRows final : public RowThreads {
+   public:
+    CrewRows(Crew& crew, std::uint32_t threads) : crew_(&crew), threads_(threads) {}
+    unsigned size() const override { return threads_; }
+    std::uint64_t items_per_band_min() const override { return 256; }
+    void run(unsigned count, const std::function<void(unsigned)>& task) override { crew_->run(count, task); }
+
+   private:
+    Crew* crew_;
+    std::uint32_t threads_;
+  };
+
   Cloth cloth_;
   const Kernels& kernels_;
+  std::unique_ptr<Effects> effects_;
   Floats half_velocity_;        ///< velocity Verlet's
   std::unique_ptr<Xpbd> xpbd_;  ///< the sweeps, where XPBD is the solver
   ThreadChoice choice_;
   std::unique_ptr<Crew> crew_;
+  std::optional<CrewRows> crew_rows_;
   std::map<std::uint32_t, std::unique_ptr<Bands>> bands_;  ///< by count, made when first wanted
 };
 

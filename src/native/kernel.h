@@ -30,12 +30,38 @@ struct Sphere {
   float reach, friction;
 };
 
+/// One pin that moves or lets go, during one drift: how far it is from where it held first [m], its velocity
+/// [m/s], and whether it has let go before.
+struct PinPlace {
+  float offset[3], velocity[3];
+  std::uint32_t released;
+};
+
+/// One capsule or box during one drift; passes/coefficients.h "SolidRow" says what each is.
+struct Solid {
+  float center[3], start[3], velocity[3], spin[3], half[3];
+  float axes[3][3], start_axes[3][3];
+  float reach, deep, friction;
+};
+
+/// What [aerodynamics] does during one kick; passes/coefficients.h "AirRow" says what each is.
+struct Air {
+  float wind[3], origin[3];
+  float cells_1_m, slice_share, noise_m_s, drag, lift;
+  std::uint32_t slice, seed, has_noise;
+  float noise_farthest;             ///< cells, as shared/params.h
+  std::uint32_t noise_period_mask;  ///< cells
+};
+
 /// One row of the schedule, rounded once; passes/coefficients.h says what each is.
 struct Kick {
   float alpha_wind[3], loss, gain, drift;
   float predict_loss, predict_gain;  ///< of the kick that predicts; 0 without one
   std::uint32_t begins_frame;        ///< the frame's first row
   const Sphere* spheres;             ///< Outside::sphere_count of them
+  const Solid* solids;               ///< capsules and boxes
+  const PinPlace* pins;              ///< as Model::moved_pins
+  const Air* air;                    ///< null without [aerodynamics]
 };
 
 /// What acts on every particle alike.
@@ -99,7 +125,38 @@ struct Surface {
   std::size_t stride, nx, ny, first, last;
   const float* const* rows;             ///< by row
   const float* relative_inverse_mass;   ///< position.w, by particle
-  float *position, *velocity, *normal;  ///< vec4 a particle; velocity may be null
+  float *position, *velocity, *normal;  ///< vec4 a particle; either of the last two may be null
+};
+
+/// The air's kick for rows [first, last) of a cloth of nx × ny.
+struct AirKick {
+  Sheet sheet;
+  std::size_t nx, ny, first, last;
+  const float* const* rows;  ///< by row
+  const Air* air;
+  float gain;     ///< of the kick [s]
+  float* kicked;  ///< velocities after it: 3·stride a row of the cloth
+};
+
+/// Contact of rows [first, last) with capsules, boxes and the floor after them.
+struct SolidTouch {
+  Sheet sheet;
+  std::size_t nx, first, last;
+  float* const* rows;   ///< by row
+  const float* before;  ///< positions where the drift began: 3·stride a row
+  const Solid* solids;
+  std::uint32_t solid_count, has_level, has_tilt;
+  float floor_height, floor_friction, tilt_normal[3], tilt_level;
+  std::uint32_t* left_over;  ///< room for the particles of these rows
+};
+
+/// Links of rows [first, last) of a cloth of nx × ny: what is too long breaks.
+struct Tear {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;               ///< by row
+  float structural, shear;                ///< the longest length squared [m²]
+  int along_i, along_j, falling, rising;  ///< bits of the links, as shared/links.h
+  std::uint32_t* broken_links;            ///< by particle
 };
 
 /// Which variant of the sweep: what is absent costs nothing.
@@ -112,6 +169,9 @@ struct Kernels {
   std::uint32_t lanes;
   void (*sweep[kSweepVariants])(const Sweep&);
   void (*surface)(const Surface&);
+  void (*air_kick)(const AirKick&);
+  std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
+  std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with

@@ -7,16 +7,25 @@ constexpr float kTinyLengthSquared = 1e-24f;  // as shared/params.h, which inclu
 constexpr float kNoLength = 1e-12f;
 constexpr float kNoNormal = 1e-30f;
 
-#include "native/contact_text.h"
-#include "native/surface_text.h"
-#include "native/xpbd_text.h"
-
 struct Body {
   Vec3 x, v;
 };
 WEFT_INLINE Body load_body(const float* at, Index stride) {
   return {load3(at, stride), load3(at + 3 * stride, stride)};
 }
+
+/// (q − p) × (r − p), each component product minus product.
+WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
+  const Vec3 a = q - p, b = r - p;
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+#include "native/air_text.h"
+#include "native/contact_text.h"
+#include "native/solid_text.h"
+#include "native/surface_text.h"
+#include "native/tear_text.h"
+#include "native/xpbd_text.h"
 
 /// The force on a; docs/float-form.md "One pair".
 template <bool kDamped>
@@ -211,6 +220,9 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           kLanes,
           {sweep_rows<kVariant>...},
           surface,
+          air_kick,
+          touch_solids,
+          tear,
           xpbd_predict,
           xpbd_finish,
           {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,

@@ -1,12 +1,6 @@
 // Vertex normals of a vector of particles as docs/float-form.md "Vertex normals", and the vec4s that are
 // drawn. Included by kernel_text.h.
 
-/// (q − p) × (r − p), each component product minus product.
-WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
-  const Vec3 a = q - p, b = r - p;
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// The positions around a vector of particles; a row that does not exist is never used.
 struct Around {
   const float *above, *own, *below;
@@ -60,8 +54,10 @@ void surface(const Surface& s) {
       const Around around{s.rows[has_above ? j - 1 : j] + column, s.rows[j] + column, s.rows[j + 1] + column,
                           s.stride};
       const Index count = s.nx - i < kLanes ? s.nx - i : kLanes;
-      const Vec3 n = unit(normal_sum(around, has_left, has_right, has_above, has_below));
-      write_vec4(s.normal + 4 * particle, count, n, nullptr);
+      if (s.normal != nullptr) {
+        const Vec3 n = unit(normal_sum(around, has_left, has_right, has_above, has_below));
+        write_vec4(s.normal + 4 * particle, count, n, nullptr);
+      }
       write_vec4(s.position + 4 * particle, count, around.at(around.own, 0),
                  s.relative_inverse_mass + particle);
       if (s.velocity != nullptr)

@@ -2,11 +2,13 @@
 #include "native/xpbd.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "native/bands.h"
 #include "passes/integrate.h"
 #include "passes/passes.h"
 #include "passes/xpbd.h"
+#include "passes/xpbd_tethers.h"
 
 namespace weft::native {
 namespace {
@@ -34,20 +36,26 @@ Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan&
       kernels_(kernels),
       moved_bytes_(cloth.ny() * 4 * cloth.sheet().stride * sizeof(float)),
       moved_(make_floats(moved_bytes_ / sizeof(float))),
+      interior_(static_cast<float>(1.0 / model.interior_mass_kg)),
       turns_(cloth.ny() / kRowsPerBandMin + 1) {
   const std::size_t stride = cloth.sheet().stride;
   move_.sheet = {stride, cloth.nx(), cloth.ny(), cloth.row(0), moved_.get()};
   move_.outside = cloth.outside();
-  const auto interior = static_cast<float>(1.0 / model.interior_mass_kg);
-  for (std::size_t j = 0; j < cloth.ny(); ++j)
-    for (std::size_t i = 0; i < cloth.nx(); ++i)
-      moved_[(4 * j + 3) * stride + kColumns + i] =
-          cloth.relative_inverse_mass()[j * cloth.nx() + i] * interior;
+  take_masses();
   for (const PlanStep& step : plan.steps) {
     if (step.pass == &xpbd_predict) move_.has_air = is_set(step.constants, kHasAir);
     if (step.pass == &xpbd_spring || step.pass == &xpbd_bend) colours_.push_back(colour_of(step, model));
+    if (step.pass == &xpbd_pins) placed_ = model.moved_particles;
+    if (step.pass == &xpbd_tethers) tethers_ = make_tethers<float>(model);
   }
   move_.has_contact = cloth.outside().has_floor != 0 || cloth.outside().sphere_count > 0;
+}
+
+void Xpbd::take_masses() {
+  for (std::size_t j = 0; j < cloth_.ny(); ++j)
+    for (std::size_t i = 0; i < cloth_.nx(); ++i)
+      moved_[(4 * j + 3) * cloth_.sheet().stride + kColumns + i] =
+          cloth_.relative_inverse_mass()[j * cloth_.nx() + i] * interior_;
 }
 
 Xpbd::Colour Xpbd::colour_of(const PlanStep& step, const Model& model) const {
@@ -79,6 +87,49 @@ void Xpbd::end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn) 
   if (own + 1 < count) wait_for(turns_[own + 1].done, turn);
 }
 
+/// How far moving pins take what they hold of the band's rows.
+void Xpbd::move_pins(const XpbdMove& move) {
+  const std::size_t stride = move.sheet.stride, nx = move.sheet.nx;
+  const auto row_before = [&](const MovedParticle& held, std::size_t row) {
+    return held.particle / nx < row;
+  };
+  auto held = std::ranges::lower_bound(placed_, move.first * nx, {}, &MovedParticle::particle);
+  for (; held != placed_.end() && row_before(*held, move.last); ++held) {
+    const PinPlace& pin = move.kick->pins[held->pin];
+    if (pin.released != 0) continue;
+    float* const moved = move.sheet.moved + held->particle / nx * 4 * stride + kColumns + held->particle % nx;
+    for (std::size_t axis = 0; axis < 3; ++axis) moved[axis * stride] = move.kick->drift * pin.velocity[axis];
+  }
+}
+
+/// Of the band's rows; anchors are fixed, so that nobody moves one meanwhile.
+void Xpbd::pull_tethers(const XpbdMove& move) {
+  const std::size_t stride = move.sheet.stride, nx = move.sheet.nx;
+  struct Place {
+    const float* start;
+    float* moved;
+  };
+  const auto place = [&](std::size_t p) {
+    return Place{move.sheet.state + p / nx * 6 * stride + kColumns + p % nx,
+                 move.sheet.moved + p / nx * 4 * stride + kColumns + p % nx};
+  };
+  for (std::size_t p = move.first * nx; p < move.last * nx; ++p) {
+    const shared::TetherOf<float>& tether = tethers_[p];
+    const Place own = place(p), anchor = place(tether.anchor);
+    if (own.moved[3 * stride] == 0.0f || tether.reach_m < 0.0f) continue;
+    float d[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t at = axis * stride;
+      d[axis] = (own.start[at] - anchor.start[at]) + (own.moved[at] - anchor.moved[at]);
+    }
+    const float q = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
+    if (!(q > tether.reach_m * tether.reach_m)) continue;
+    const float l = std::sqrt(q), share = (l - tether.reach_m) * (1.0f / l);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      own.moved[axis * stride] = own.moved[axis * stride] - share * d[axis];
+  }
+}
+
 void Xpbd::sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks) {
   XpbdMove move = move_;
   move.first = own * cloth_.ny() / count;
@@ -88,6 +139,7 @@ void Xpbd::sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Ki
   for (const Kick& kick : kicks) {
     move.kick = &kick;
     kernels_.xpbd_predict(move);
+    move_pins(move);
     for (const Colour& colour : colours_) {
       XpbdPull pull = colour.what;
       pull.step = kick.drift;
@@ -102,6 +154,15 @@ void Xpbd::sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Ki
         colour.pull(pull);
       }
       end_turn(own, count, ++turn);
+    }
+    if (!tethers_.empty()) {
+      // Anchors may be any band's: all of them wait for all, before these are read and before they move on.
+      const auto end_turns = [&] {
+        for (std::uint32_t band = 1; band < count; ++band) end_turn(own, count, ++turn);
+      };
+      end_turns();
+      pull_tethers(move);
+      end_turns();
     }
     kernels_.xpbd_finish(move);
   }

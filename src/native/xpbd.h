@@ -7,6 +7,7 @@
 #include "native/cloth.h"
 #include "native/crew.h"
 #include "plan/plan.h"
+#include "shared/params.h"
 
 namespace weft::native {
 
@@ -20,6 +21,8 @@ class Xpbd {
 
   /// One substep a kick, in that many of the crew's threads.
   void sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks);
+  /// Who is fixed has changed.
+  void take_masses();
   std::uint64_t bytes() const { return moved_bytes_; }
 
  private:
@@ -35,13 +38,18 @@ class Xpbd {
   Colour colour_of(const PlanStep& step, const Model& model) const;
   void sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks);
   void end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn);
+  void move_pins(const XpbdMove& move);
+  void pull_tethers(const XpbdMove& move);
 
   Cloth& cloth_;
   const Kernels& kernels_;
   XpbdMove move_{};
   std::vector<Colour> colours_;
+  std::vector<MovedParticle> placed_;             ///< where the plan has xpbd_pins
+  std::vector<shared::TetherOf<float>> tethers_;  ///< where it has xpbd_tethers
   std::size_t moved_bytes_;
   Floats moved_;
+  float interior_;  ///< inverse mass of an interior particle [1/kg]
   std::vector<Turns> turns_;
 };
 

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -14,12 +15,12 @@ namespace {
 constexpr std::uint64_t kItemsPerBandMin = 2048;  // below this a wake-up costs more than it saves
 constexpr std::uint32_t kRowsPerBandMin = 8;      // each band repeats the springs of the two rows above it
 
-class Pool {
+class Pool final : public RowThreads {
  public:
   explicit Pool(unsigned helper_count) {
     for (unsigned t = 0; t < helper_count; ++t) threads_.emplace_back([this] { help(); });
   }
-  ~Pool() {
+  ~Pool() override {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
@@ -30,10 +31,12 @@ class Pool {
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  unsigned size() const { return static_cast<unsigned>(threads_.size()) + 1; }
+  unsigned size() const override { return static_cast<unsigned>(threads_.size()) + 1; }
 
-  /// Runs task(0) … task(count − 1); one caller at a time, a second one works alone.
-  void run(unsigned count, const std::function<void(unsigned)>& task) {
+  std::uint64_t items_per_band_min() const override { return kItemsPerBandMin; }
+
+  /// One caller at a time, a second one works alone.
+  void run(unsigned count, const std::function<void(unsigned)>& task) override {
     const std::unique_lock only(callers_, std::try_to_lock);
     if (!only.owns_lock()) {
       for (unsigned t = 0; t < count; ++t) task(t);
@@ -79,27 +82,29 @@ class Pool {
   std::vector<std::thread> threads_;
 };
 
-Pool& pool() {
+RowThreads& pool() {
   static Pool shared(std::max(1u, std::thread::hardware_concurrency()) - 1);
   return shared;
 }
 
+thread_local RowThreads* in_use = nullptr;
+
 }  // namespace
+
+RowThreadsInUse::RowThreadsInUse(RowThreads& threads) : before_(std::exchange(in_use, &threads)) {}
+RowThreadsInUse::~RowThreadsInUse() { in_use = before_; }
 
 void parallel_rows(std::uint32_t rows, std::uint64_t items_per_row,
                    const std::function<void(std::uint32_t, std::uint32_t)>& work) {
-  const std::uint64_t by_items = rows * items_per_row / kItemsPerBandMin;
+  RowThreads& threads = in_use != nullptr ? *in_use : pool();
+  const std::uint64_t by_items = rows * items_per_row / threads.items_per_band_min();
   const auto bands_max = static_cast<unsigned>(std::min<std::uint64_t>(by_items, rows / kRowsPerBandMin));
-  if (bands_max < 2) {
-    work(0, rows);
-    return;
-  }
-  const unsigned bands = std::min(bands_max, pool().size());
+  const unsigned bands = std::min(bands_max, threads.size());
   if (bands < 2) {
     work(0, rows);
     return;
   }
-  pool().run(bands, [&](unsigned band) {
+  threads.run(bands, [&](unsigned band) {
     const auto edge = [&](std::uint64_t b) { return static_cast<std::uint32_t>(b * rows / bands); };
     work(edge(band), edge(band + 1));
   });

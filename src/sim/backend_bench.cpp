@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "native/bands.h"
 #include "native/features.h"
 #include "sim/gpu_simulation.h"
 #include "sim/native_simulation.h"

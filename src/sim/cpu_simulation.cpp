@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "passes/passes.h"
 #include "passes/tables.h"
+#include "passes/tearing.h"
 #include "plan/buffers.h"
 
 namespace weft {
@@ -150,6 +151,21 @@ void CpuSimulation<T>::write_drawn(const native::SurfaceTarget& target) {
   const std::size_t bytes = position.size() * sizeof(glm::vec4);
   std::memcpy(target.position, drawn[BufferId::position].data(), bytes);
   std::memcpy(target.normal, drawn[BufferId::normal].data(), bytes);
+  if (!model_.scene.tearing) return;
+  drawn.words_of(BufferId::broken_links) = buffers_.words_of(BufferId::broken_links);
+  write_torn_surface(model_, drawn, target);
+}
+
+void write_torn_surface(const Model& model, HostBuffers<float>& buffers,
+                        const native::SurfaceTarget& target) {
+  normals_torn.mirror_f32({model, {}, kNoRow}, buffers);
+  const auto& normal = buffers[BufferId::normal];
+  std::memcpy(target.normal, normal.data(), normal.size() * sizeof(glm::vec4));
+  if (target.torn_mesh == nullptr) return;
+  auto& mesh = buffers.words_of(BufferId::torn_mesh);
+  mesh.resize(torn_mesh_words(model.grid));
+  torn_mesh.mirror_f32({model, {}, kNoRow}, buffers);
+  std::memcpy(target.torn_mesh, mesh.data(), mesh.size() * sizeof(std::uint32_t));
 }
 
 template <class T>

@@ -81,4 +81,8 @@ class CpuSimulation : public HostSimulation {
   std::vector<double> step_ms_, finished_ms_;
 };
 
+/// What is drawn of a cloth that tears, from the positions and broken links in the buffers: the normals of
+/// the triangles that are whole, and the list of indices where the target has a place for it.
+void write_torn_surface(const Model& model, HostBuffers<float>& buffers, const native::SurfaceTarget& target);
+
 }  // namespace weft

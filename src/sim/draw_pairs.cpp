@@ -4,27 +4,36 @@
 #include <algorithm>
 #include <span>
 
+#include "passes/tearing.h"
+
 namespace weft {
 namespace {
 
-gpu::Buffer drawn_buffer(gpu::Device& device, const char* name, std::uint64_t particles) {
-  constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  return gpu::Buffer(device, name, particles * sizeof(glm::vec4), kUsage, gpu::Memory::upload);
+gpu::Buffer drawn_buffer(gpu::Device& device, const char* name, std::uint64_t bytes,
+                         VkBufferUsageFlags usage) {
+  return gpu::Buffer(device, name, bytes,
+                     usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                     gpu::Memory::upload);
 }
 
-float* place_of(const gpu::Buffer& buffer, std::vector<glm::vec4>& staged) {
-  if (buffer.mapped() != nullptr) return reinterpret_cast<float*>(buffer.mapped());
-  staged.resize(buffer.bytes() / sizeof(glm::vec4));
-  return &staged.data()->x;
+template <class Element>
+void* place_of(const gpu::Buffer& buffer, std::vector<Element>& staged) {
+  if (buffer.mapped() != nullptr) return buffer.mapped();
+  staged.resize(buffer.bytes() / sizeof(Element));
+  return staged.data();
 }
 
 }  // namespace
 
-DrawPairs::DrawPairs(gpu::Device& device, std::uint64_t particles) : device_(device) {
+DrawPairs::DrawPairs(gpu::Device& device, const Model& model) : device_(device) {
+  const std::uint64_t bytes = model.grid.count() * sizeof(glm::vec4);
   for (Pair& pair : pairs_) {
-    pair.position = drawn_buffer(device, "drawn position", particles);
-    pair.normal = drawn_buffer(device, "drawn normal", particles);
+    pair.position = drawn_buffer(device, "drawn position", bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    pair.normal = drawn_buffer(device, "drawn normal", bytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    if (model.scene.tearing)
+      pair.torn_mesh =
+          drawn_buffer(device, "drawn torn mesh", torn_mesh_words(model.grid) * sizeof(std::uint32_t),
+                       VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   }
 }
 
@@ -35,7 +44,10 @@ native::SurfaceTarget DrawPairs::target() {
   target_ = best;
   Pair& pair = pairs_[target_];
   if (pair.read_until > device_.completed()) device_.wait(pair.read_until);
-  return {place_of(pair.position, pair.staged_position), place_of(pair.normal, pair.staged_normal)};
+  native::SurfaceTarget to{static_cast<float*>(place_of(pair.position, pair.staged_position)),
+                           static_cast<float*>(place_of(pair.normal, pair.staged_normal))};
+  if (pair.torn_mesh) to.torn_mesh = static_cast<std::uint32_t*>(place_of(pair.torn_mesh, pair.staged_mesh));
+  return to;
 }
 
 void DrawPairs::show() {
@@ -47,13 +59,18 @@ void DrawPairs::show() {
     next.position.write(std::as_bytes(std::span(next.staged_position)));
     next.normal.write(std::as_bytes(std::span(next.staged_normal)));
   }
+  if (next.torn_mesh && next.torn_mesh.mapped() == nullptr)
+    next.torn_mesh.write(std::as_bytes(std::span(next.staged_mesh)));
   next.shown_since = device_.submitted();
   shown_ = target_;
 }
 
 std::uint64_t DrawPairs::bytes() const {
   std::uint64_t bytes = 0;
-  for (const Pair& pair : pairs_) bytes += pair.position.bytes() + pair.normal.bytes();
+  for (const Pair& pair : pairs_) {
+    bytes += pair.position.bytes() + pair.normal.bytes();
+    if (pair.torn_mesh) bytes += pair.torn_mesh.bytes();
+  }
   return bytes;
 }
 

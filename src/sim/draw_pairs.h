@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
-#include "native/engine.h"
+#include "native/surface_target.h"
 #include "sim/drawn_simulation.h"
 
 namespace weft {
@@ -13,20 +13,27 @@ namespace weft {
 /// For the thread that owns the device, but for what target() points to.
 class DrawPairs {
  public:
-  DrawPairs(gpu::Device& device, std::uint64_t particles);
+  /// @param model  whose cloth is drawn
+  DrawPairs(gpu::Device& device, const Model& model);
   /// Where the next state may be written: no picture reads it any more.
   native::SurfaceTarget target();
   /// The target is written: from now on it is what is drawn.
   void show();
-  DrawBuffers shown() const { return {pairs_[shown_].position.handle(), pairs_[shown_].normal.handle(), {}}; }
+  DrawBuffers shown() const {
+    const Pair& pair = pairs_[shown_];
+    return {pair.position.handle(), pair.normal.handle(),
+            pair.torn_mesh ? pair.torn_mesh.handle() : VK_NULL_HANDLE};
+  }
   std::uint64_t bytes() const;
 
  private:
   struct Pair {
     gpu::Buffer position, normal;
+    gpu::Buffer torn_mesh;                                  ///< only of a cloth that tears
     std::vector<glm::vec4> staged_position, staged_normal;  ///< where the host does not see device memory
-    std::uint64_t shown_since = 0;                          ///< the device's timeline when it was shown
-    std::uint64_t read_until = 0;                           ///< what must be finished before it is written
+    std::vector<std::uint32_t> staged_mesh;
+    std::uint64_t shown_since = 0;  ///< the device's timeline when it was shown
+    std::uint64_t read_until = 0;   ///< what must be finished before it is written
   };
   gpu::Device& device_;
   /// One is shown, one is written, and two pictures in flight may read two more: nobody waits.

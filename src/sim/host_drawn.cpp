@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kPatience{8};  ///< that continue_frame() wa
 class HostDrawn final : public DrawnSimulation {
  public:
   HostDrawn(gpu::Device& device, std::unique_ptr<HostSimulation> simulation)
-      : simulation_(std::move(simulation)), pairs_(device, simulation_->model().grid.count()) {
+      : simulation_(std::move(simulation)), pairs_(device, simulation_->model()) {
     note_facts();
     show_now();
     thread_ = std::thread([this] { work(); });

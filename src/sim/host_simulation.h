@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "native/engine.h"
+#include "native/surface_target.h"
 #include "sim/drawn_simulation.h"
 
 namespace weft {

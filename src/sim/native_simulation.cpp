@@ -1,8 +1,11 @@
-// The plan interpreted by vector kernels: the CPU's fast path, with the reference's bits.
+// The plan interpreted by vector kernels, and by mirrors where there are none: the CPU's fast path, with the
+// reference's bits.
 #include "sim/native_simulation.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "native/engine.h"
 #include "passes/passes.h"
 #include "sim/cpu_simulation.h"
 
@@ -13,6 +16,7 @@ class NativeSimulation final : public CpuSimulation<float> {
  public:
   NativeSimulation(const Model& model, const Solver& solver, const native::EngineOptions& options)
       : CpuSimulation(model, solver, "f32"), engine_(model_, plan_, options) {
+    look_at_plan();
     write(start_state(model_));
   }
 
@@ -30,48 +34,117 @@ class NativeSimulation final : public CpuSimulation<float> {
     table_ = native::KickTable(model_, frame_.rows);
   }
 
-  void write_drawn(const native::SurfaceTarget& target) override { engine_.write_surface(target); }
+  void write_drawn(const native::SurfaceTarget& target) override {
+    need_rows();
+    engine_.write_surface(target);
+    if (model_.scene.tearing) write_torn(target);
+  }
 
  private:
   void run_substeps(std::uint32_t first, std::uint32_t count) override {
+    if (only_sweeps_) return sweep(Block::substep, first, count);
+    for (std::uint32_t substep = first; substep < first + count; ++substep)
+      run_stages(Block::substep, substep);
+  }
+  /// With positions and velocities in the buffers, as watch and keep_sound find them.
+  void run_frame_end() override { run_stages(Block::frame_end, frame_.substeps); }
+
+  void run_stages(Block block, std::uint32_t substep) {
+    bool swept = false;
+    for (const PlanStep& step : plan_.steps) {
+      if (step.block != block || (block == Block::substep && substep % step.interval != 0)) continue;
+      if (native::means_of(*step.pass) == native::Means::sweep) {
+        if (!std::exchange(swept, true)) sweep(block, substep, 1);
+      } else if (native::means_of(*step.pass) == native::Means::effect) {
+        run_effect(step, substep);
+      } else if (step.pass == &normals) {
+        const Clock::time_point began = Clock::now();
+        need_rows();
+        write_buffers(floats(BufferId::normal));
+        this->count(step, 1, ms_since(began));
+      } else {
+        run_mirror(step, substep);
+      }
+    }
+  }
+
+  /// The steps of the block's sweep, in so many substeps.
+  void sweep(Block block, std::uint32_t first, std::uint32_t count) {
+    const auto swept = [&](const PlanStep& step) {
+      return step.block == block && native::means_of(*step.pass) == native::Means::sweep;
+    };
+    need_rows();
+    if (contact_follows_) {  // it reads where the drift began
+      need_buffers();
+      std::swap(buffers_[BufferId::position], buffers_[BufferId::position_next]);
+    }
     const Clock::time_point began = Clock::now();
     engine_.sweep(table_, first, count);
-    const auto in_substep = [](const PlanStep& step) { return step.block == Block::substep; };
-    const auto passes = static_cast<double>(std::ranges::count_if(plan_.steps, in_substep));
-    const double ms = ms_since(began) / passes;  // they run into each other: each counts alike
+    buffers_current_ = false;
+    // They run into each other: each counts alike.
+    const double ms = ms_since(began) / static_cast<double>(std::ranges::count_if(plan_.steps, swept));
     for (const PlanStep& step : plan_.steps)
-      if (in_substep(step)) this->count(step, count, ms);
+      if (swept(step)) this->count(step, count, ms);
   }
 
-  /// The closing kick and normals by the kernels; what else stands there by its mirror, over the buffers.
-  void run_frame_end() override {
-    for (const PlanStep& step : plan_.steps) {
-      if (step.block != Block::frame_end || !step.pass->swaps_state) continue;
-      const Clock::time_point began = Clock::now();
-      engine_.sweep(table_, frame_.substeps, 1);
-      count(step, 1, ms_since(began));
-    }
-    for (const PlanStep& step : plan_.steps) {
-      if (step.block != Block::frame_end || step.pass != &normals) continue;
-      const Clock::time_point began = Clock::now();
-      fetch_state();
-      count(step, 1, ms_since(began));
-    }
-    for (const PlanStep& step : plan_.steps)
-      if (step.block == Block::frame_end && !step.pass->swaps_state && step.pass != &normals)
-        run_step(step, frame_.substeps);
+  void run_effect(const PlanStep& step, std::uint32_t substep) {
+    const Clock::time_point began = Clock::now();
+    need_rows();
+    engine_.run(step, table_.kicks()[plan_.table_row(step, substep)]);
+    buffers_current_ = false;
+    this->count(step, 1, ms_since(began));
   }
 
-  void model_changed() override { engine_.adopt(model_, plan_); }
-  void buffers_written() override { engine_.load(buffers_); }
+  void run_mirror(const PlanStep& step, std::uint32_t substep) {
+    need_buffers();
+    const RowThreadsInUse threads(engine_.threads_for_mirrors());
+    run_step(step, substep);
+    if (step.block == Block::substep || step.pass->swaps_state) rows_current_ = false;
+  }
 
-  void fetch_state() override {
-    const auto floats = [&](BufferId id) { return reinterpret_cast<float*>(buffers_[id].data()); };
-    engine_.write_surface({floats(BufferId::position), floats(BufferId::normal), floats(BufferId::velocity)});
+  void model_changed() override {
+    engine_.adopt(model_, plan_);
+    look_at_plan();
+  }
+  void buffers_written() override {
+    engine_.load(buffers_);
+    rows_current_ = buffers_current_ = true;
+  }
+  void fetch_state() override { need_buffers(); }
+
+  void need_rows() {
+    if (!std::exchange(rows_current_, true)) engine_.load(buffers_);
+  }
+  void need_buffers() {
+    if (!std::exchange(buffers_current_, true)) write_buffers(nullptr);
+  }
+  /// Rows into the buffers; normals too, where they have a place.
+  void write_buffers(float* normal) {
+    engine_.write_surface({floats(BufferId::position), normal, floats(BufferId::velocity)});
+    std::ranges::copy(engine_.broken_links(), buffers_.words_of(BufferId::broken_links).begin());
+    buffers_current_ = true;
+  }
+  float* floats(BufferId id) { return reinterpret_cast<float*>(buffers_[id].data()); }
+
+  void write_torn(const native::SurfaceTarget& target) {
+    need_buffers();
+    const RowThreadsInUse threads(engine_.threads_for_mirrors());
+    write_torn_surface(model_, buffers_, target);
+  }
+
+  void look_at_plan() {
+    only_sweeps_ = std::ranges::all_of(plan_.steps, [](const PlanStep& step) {
+      return step.block != Block::substep || native::means_of(*step.pass) == native::Means::sweep;
+    });
+    contact_follows_ =
+        std::ranges::any_of(plan_.steps, [](const PlanStep& step) { return step.pass == &mesh_contact; });
   }
 
   native::Engine engine_;
   native::KickTable table_;
+  /// Where the latest state is: in the kernels' rows, in the buffers, or in both.
+  bool rows_current_ = true, buffers_current_ = true;
+  bool only_sweeps_ = false, contact_follows_ = false;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gpu/device.h"
-#include "native/engine.h"
+#include "native/engine_options.h"
 #include "sim/host_simulation.h"
 
 namespace weft {

@@ -1,0 +1,13 @@
+// What a person or a test may choose about the native engine.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace weft::native {
+
+struct EngineOptions {
+  std::uint32_t threads = 0;  ///< exactly that many; 0: by trial, at most WEFT_THREADS and one a core
+  std::string vector;         ///< a kernel's name; empty: WEFT_VECTOR, else the widest
+};
+
+}  // namespace weft::native
