@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "native/features.h"
-#include "passes/passes.h"
 #include "passes/tables.h"
 #include "sim/compare.h"
 #include "sim/native_simulation.h"
@@ -27,26 +26,14 @@ struct NativeFrame {
   std::uint32_t substeps;
 };
 
-Ending reference_ending(const Model& model, const Solver& solver, const State& from,
-                        const NativeFrame& frame) {
-  const auto simulation = make_cpu_simulation(model, solver, "f32");
-  simulation->write(from);
-  simulation->advance(frame.length_s, frame.substeps);
+Ending ending_of(HostSimulation& simulation, const State& from, const NativeFrame& frame) {
+  simulation.write(from);
+  simulation.advance(frame.length_s, frame.substeps);
   Ending ending;
-  load_state(model, simulation->read(), ending);
-  const KickDrift none;
-  normals.mirror_f32({model, {}, none}, ending);
-  return ending;
-}
-
-Ending native_ending(HostSimulation& native, const State& from, const NativeFrame& frame) {
-  native.write(from);
-  native.advance(frame.length_s, frame.substeps);
-  Ending ending;
-  load_state(native.model(), native.read(), ending);
-  ending[BufferId::normal].assign(native.model().grid.count(), glm::vec4(0.0f));
-  std::vector<glm::vec4> positions(native.model().grid.count());
-  native.write_drawn({&positions.data()->x, &ending[BufferId::normal].data()->x});
+  load_state(simulation.model(), simulation.read(), ending);
+  ending[BufferId::normal].assign(simulation.model().grid.count(), glm::vec4(0.0f));
+  std::vector<glm::vec4> positions(simulation.model().grid.count());
+  simulation.write_drawn({&positions.data()->x, &ending[BufferId::normal].data()->x});
   return ending;
 }
 
@@ -85,12 +72,12 @@ ValidationReport validate_native(const Model& model, const Solver& solver, const
   const NativeFrame frame{model.scene.solver.frame_s * substeps / plan.substeps, substeps};
   ValidationReport report{.device = "native", .scene = model.scene.title, .exact_required = true};
   for (const ProbeState& probe : probe_states(model, solver)) {
-    const Ending expected = reference_ending(model, solver, probe.state, frame);
+    const Ending expected = ending_of(*make_host_reference(model, solver, "f32"), probe.state, frame);
     for (const native::Kernels* kernels : native::kernels_here())
       for (const std::uint32_t threads : {1u, kSeveralThreads}) {
         const auto native =
             make_native_simulation(model, solver, "f32", {.threads = threads, .vector = kernels->name});
-        const Ending got = native_ending(*native, probe.state, frame);
+        const Ending got = ending_of(*native, probe.state, frame);
         const std::string kernel = fmt::format("{} substeps, {}", substeps, native->device_name());
         for (const BufferId id : kCompared)
           report.rows.push_back(native_row(kernel, probe.name, id, got, expected));

@@ -208,7 +208,7 @@ TEST(NativeBits, FastSpheresEqualTheReference) {
 /// Every probe state of `validate`, among them one in contact with everything; positions, velocities,
 /// normals.
 TEST(NativeBits, ValidateFindsNoDifference) {
-  for (const char* scene : {"1", "5"}) {
+  for (const char* scene : {"1", "5", "tearing"}) {
     const Model model = model_of(scene, {"cloth.resolution=17"});
     const ValidationReport report = validate_native(model, find_solver("leapfrog"), {.lockstep_substeps = 8});
     // states × kernels × {1, 3 threads} × {position, velocity, normal}

@@ -24,7 +24,7 @@ struct Watched {
 };
 
 /// So many seconds of wall time: each turn pays the frames that are owed, within 40 ms, and its picture.
-Watched run(const Machine& machine, double wall_s, Pacer& pacer, PictureShare& share) {
+Watched watched_for(const Machine& machine, double wall_s, Pacer& pacer, PictureShare& share) {
   Watched done;
   double now_s = 0.0, picture_s = -1.0, turn_s = kDisplay_s;
   while (now_s < wall_s) {
@@ -52,7 +52,7 @@ Watched run(const Machine& machine, double wall_s, Pacer& pacer, PictureShare& s
 TEST(PictureShare, KeepsFullPicturesWhereTheSimulationKeepsUp) {
   Pacer pacer(kDisplay_s);
   PictureShare share;
-  const Watched fast = run({.picture_s = 0.008, .frame_s = 0.004}, 20.0, pacer, share);
+  const Watched fast = watched_for({.picture_s = 0.008, .frame_s = 0.004}, 20.0, pacer, share);
   EXPECT_EQ(share.step(), 0u);
   EXPECT_NEAR(static_cast<double>(fast.pictures), 1200.0, 12.0);
   EXPECT_EQ(share.text(kDisplay_s, 1.0), "");
@@ -64,9 +64,9 @@ TEST(PictureShare, DrawsLessUntilTheSimulationKeepsRealTime) {
   const Machine machine{.picture_s = 0.050, .frame_s = 0.012};
   Pacer pacer(kDisplay_s);
   PictureShare share;
-  const Watched before = run(machine, PictureShare::kPatience_s, pacer, share);
+  const Watched before = watched_for(machine, PictureShare::kPatience_s, pacer, share);
   EXPECT_LT(before.real_time_factor, 0.8);
-  const Watched later = run(machine, 40.0, pacer, share);
+  const Watched later = watched_for(machine, 40.0, pacer, share);
   EXPECT_GE(share.step(), 1u);
   EXPECT_GE(static_cast<double>(later.frames), 0.93 * 40.0 * 60.0);
   EXPECT_NE(share.text(kDisplay_s, share.scale_most()).find("so that the simulation keeps up"),
@@ -76,9 +76,9 @@ TEST(PictureShare, DrawsLessUntilTheSimulationKeepsRealTime) {
 TEST(PictureShare, RestoresThePicturesWhenThereIsRoom) {
   Pacer pacer(kDisplay_s);
   PictureShare share;
-  run({.picture_s = 0.020, .frame_s = 0.016}, 10.0, pacer, share);
+  watched_for({.picture_s = 0.020, .frame_s = 0.016}, 10.0, pacer, share);
   ASSERT_GE(share.step(), 2u);
-  run({.picture_s = 0.004, .frame_s = 0.001}, 60.0, pacer, share);
+  watched_for({.picture_s = 0.004, .frame_s = 0.001}, 60.0, pacer, share);
   EXPECT_EQ(share.step(), 0u);
 }
 
@@ -87,8 +87,8 @@ TEST(PictureShare, TriesSeldomWhatFails) {
   const Machine machine{.picture_s = 0.020, .frame_s = 0.0125};
   Pacer pacer(kDisplay_s);
   PictureShare share;
-  run(machine, 300.0, pacer, share);
-  const Watched last = run(machine, 100.0, pacer, share);
+  watched_for(machine, 300.0, pacer, share);
+  const Watched last = watched_for(machine, 100.0, pacer, share);
   EXPECT_GE(static_cast<double>(last.frames), 0.95 * 100.0 * 60.0);
 }
 
