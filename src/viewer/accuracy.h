@@ -47,7 +47,7 @@ class Accuracy {
  private:
   void find_study(const RunningScene& running);
 
-  std::string label_;  // of what computes the running cloth
+  std::string label_;  // of what the study is of
   LiveWatch watch_;
   std::optional<study::Study> study_;
   std::vector<study::Point> points_;

@@ -1,4 +1,4 @@
-// Each curve has its own range, said at its ends.
+// Each picture has its own range, said below it.
 #include "viewer/history_plot.h"
 
 #include <fmt/format.h>
@@ -50,13 +50,13 @@ void draw_curves(const study::History& history, const char* title, const std::ve
     list.AddPolyline(places.data(), static_cast<int>(places.size()), curve.color, 0, 1.5f);
   }
   const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  const auto right = [&](float y, const std::string& text) {
-    list.AddText({high.x - ImGui::CalcTextSize(text.c_str()).x - 3.0f, y}, dim, text.c_str());
+  const auto below = [&](float share, ImU32 color, const std::string& text) {  // of the room that is left
+    const float room = high.x - low.x - ImGui::CalcTextSize(text.c_str()).x;
+    list.AddText({low.x + share * room, high.y + 1.0f}, color, text.c_str());
   };
-  right(low.y + 1.0f, fmt::format("{:.3g} {}", most, unit));
-  right(high.y - line - 1.0f, fmt::format("{:.3g} {}", least, unit));
-  list.AddText({low.x, high.y + 1.0f}, dim, fmt::format("{:.1f} s", from_s).c_str());
-  right(high.y + 1.0f, fmt::format("{:.1f} s", samples.back().time_s));
+  below(0.0f, dim, fmt::format("{:.1f} s", from_s));
+  below(0.5f, ImGui::GetColorU32(ImGuiCol_Text), fmt::format("{:.3g} to {:.3g} {}", least, most, unit));
+  below(1.0f, dim, fmt::format("{:.1f} s", samples.back().time_s));
 }
 
 }  // namespace

@@ -181,6 +181,11 @@ study::Bench RunningScene::bench() const {
   return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
 }
 
+study::Bench RunningScene::study_bench() const {
+  if (compute_on_ != ComputeOn::device) return study::Bench::without_device(true);
+  return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
+}
+
 std::string RunningScene::computed_by() const {
   return on_gpu_ != nullptr ? device_.info().label() : simulation_->device_name();
 }

@@ -104,8 +104,11 @@ class RunningScene {
   void release();
 
   const Scene& scene() const { return scene_; }
-  /// Where copies of the running cloth, or studies of it, are computed as it is.
+  /// Where copies of the running cloth are computed as it is.
   study::Bench bench() const;
+  /// What a study of this scene is measured on: what computes it as long as that runs the setting, so that
+  /// choosing one that it leaves to another keeps the study that it was chosen from.
+  study::Bench study_bench() const;
   /// The simulation when the device computes it, with its kernel; else null.
   const GpuSimulation* on_gpu() const { return on_gpu_; }
   /// Another simulation of the same kind as the running one.

@@ -134,6 +134,28 @@ TEST_F(AccuracyTest, AWishChoosesOnceAndAHandTakesItBack) {
   EXPECT_EQ(accuracy.study(), nullptr) << "no study of this resolution is kept";
 }
 
+// On a machine without a GPU native computes, and leaves rk4 to the software device: the study that the wish
+// was asked of stays, and the next wish is asked of it, too.
+TEST_F(AccuracyTest, AChoiceThatAnotherComputesKeepsItsStudy) {
+  RunningScene running(device(), {}, file_, {}, ComputeOn::native_or_device);
+  const std::string native = running.study_bench().label;
+  study::keep_study(running.scene(), test::hand_made_study(running.scene(), native));
+  Accuracy accuracy;
+  accuracy.follow(running);
+  ASSERT_NE(accuracy.study(), nullptr);
+  accuracy.wish() = {.kind = WishKind::error, .error_m = 1e-5};
+  const auto wanted = accuracy.wanted();
+  ASSERT_TRUE(wanted);
+  ASSERT_EQ(wanted->solver, "rk4");
+  Scene next = running.scene();
+  set_setting(*wanted, next);
+  running.apply(next);
+  accuracy.follow(running);
+  EXPECT_NE(running.on_gpu(), nullptr) << "native has no rk4";
+  EXPECT_NE(accuracy.study(), nullptr);
+  EXPECT_EQ(running.study_bench().label, native);
+}
+
 TEST(StudyRun, EndsWithAKeptStudyOrSaysWhyNot) {
   const test::ScratchCache cache;
   Scene scene = load_scene(test::small_scene_file(cache.folder()), {}).scene;
