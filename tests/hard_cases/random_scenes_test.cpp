@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -12,6 +13,7 @@
 #include "hard_cases/draw.h"
 #include "model/measures.h"
 #include "model/motion.h"
+#include "model/solids.h"
 #include "model/springs.h"
 #include "scene/parameters.h"
 #include "scene/reader.h"
@@ -27,6 +29,9 @@ constexpr double kEnergyShare = 0.25;
 
 std::string line(std::string_view section, std::string_view key) {
   const Parameter& parameter = *find_parameter(section, key);
+  if (parameter.kind == ParameterKind::integer)
+    return fmt::format("{} = {:.0f}\n", key,
+                       log_uniform(std::max(1.0, parameter.minimum), parameter.maximum));
   if (parameter.kind == ParameterKind::vec3)
     return fmt::format("{} = [{:.9e}, {:.9e}, {:.9e}]\n", key, number(parameter), number(parameter),
                        number(parameter));
@@ -61,17 +66,67 @@ std::string draw_keys(const char* place) {
   return text + "]\n";
 }
 
+bool is_number(const Parameter& parameter) {
+  return parameter.kind == ParameterKind::number || parameter.kind == ParameterKind::integer ||
+         parameter.kind == ParameterKind::vec3;
+}
+
+/// Every key of the material that is a number, so that a new one is drawn by itself.
+std::string draw_material() {
+  constexpr std::array<std::string_view, 6> kAlways{"density", "membrane", "shear",
+                                                    "bend",    "damping",  "damping_ratio_max"};
+  std::string text = "[material]\n";
+  for (const Parameter& parameter : parameters()) {
+    if (parameter.section != "material" || !is_number(parameter) || parameter.key == "flex") continue;
+    if (std::ranges::find(kAlways, parameter.key) != kAlways.end() || chance(0.15))
+      text += line("material", parameter.key);
+  }
+  return text + fmt::format("flex = {:.6f}\n", uniform(0.0, 1.0));
+}
+
+/// A section with what it requires and half of its other numbers; "" with that chance.
+std::string draw_section(std::string_view section, double share) {
+  if (!chance(share)) return "";
+  std::string text =
+      is_list_section(section) ? fmt::format("[[{}]]\n", section) : fmt::format("[{}]\n", section);
+  for (const Parameter& parameter : parameters())
+    if (parameter.section == section && is_number(parameter) && (parameter.required || chance(0.5)))
+      text += line(section, parameter.key);
+  return text;
+}
+
+/// A ring somewhere, of three sizes, whose distances are computed once.
+std::string draw_mesh() {
+  return fmt::format("[[meshes]]\nfile = \"{}/assets/meshes/ring.obj\"\nscale = {}\nresolution = 8\n",
+                     WEFT_SOURCE_DIR, std::pow(10.0, whole(-1, 1))) +
+         line("meshes", "rotation") +
+         (chance(0.3) ? draw_keys("center") : line("meshes", "center") + line("meshes", "velocity"));
+}
+
+/// The sections that draw_scene() does not draw itself: a new one is drawn by itself.
+std::string draw_other_sections(const std::string& drawn) {
+  constexpr std::array<std::string_view, 13> kElsewhere{
+      "",      "cloth",   "material",       "pins",   "gravity", "air",   "wind",
+      "floor", "spheres", "self_collision", "meshes", "solver",  "expect"};
+  std::string text;
+  for (const std::string_view section : section_names()) {
+    if (std::ranges::find(kElsewhere, section) != kElsewhere.end()) continue;
+    if (section == "tethers") continue;  // not leapfrog's
+    if (section == "tearing" && drawn.find("strain_limit") != std::string::npos) continue;
+    text += draw_section(section, 0.15);
+  }
+  return text;
+}
+
 std::string draw_scene() {
   std::string text;
   const double cell_m = draw_cloth(text);
-  text += "[material]\n";
-  for (const char* key : {"density", "membrane", "shear", "bend", "damping", "damping_ratio_max"})
-    text += line("material", key);
-  text += fmt::format("flex = {:.6f}\n", uniform(0.0, 1.0));
+  text += draw_material();
   for (int pins = whole(0, 2); pins > 0; --pins)
     text += fmt::format("[[pins]]\nat = [{:.6f}, {:.6f}]\nradius = {:.9e}\n", uniform(0.0, 1.0),
                         uniform(0.0, 1.0), log_uniform(0.71 * cell_m, 1000.0)) +
-            (chance(0.3) ? draw_keys("offset") : "");
+            (chance(0.3) ? draw_keys("offset") : "") +
+            (chance(0.1) ? fmt::format("release = {:.9e}\n", log_uniform(1e-6, 1.0)) : "");
   if (chance(0.8)) text += "[gravity]\n" + line("gravity", "acceleration");
   if (chance(0.5)) {
     text += "[air]\n" + line("air", "drag");
@@ -79,7 +134,13 @@ std::string draw_scene() {
       text += "[wind]\n" + line("wind", "velocity") + line("wind", "gust") +
               fmt::format("period = {:.9e}\n", log_uniform(1e-3, 1e6));
   }
-  if (chance(0.4)) text += "[floor]\n" + line("floor", "height") + line("floor", "friction");
+  if (chance(0.4)) {
+    text += "[floor]\n" + line("floor", "height") + line("floor", "friction");
+    if (chance(0.3))
+      text += fmt::format("normal = [{:.6f}, 1, {:.6f}]\n", uniform(-1.0, 1.0), uniform(-1.0, 1.0));
+  }
+  text += draw_other_sections(text);
+  if (chance(0.05)) text += draw_mesh();
   for (int spheres = whole(0, 2); spheres > 0; --spheres) {
     text += "[[spheres]]\n";
     for (const char* key : {"radius", "friction"}) text += line("spheres", key);
@@ -91,14 +152,18 @@ std::string draw_scene() {
   return text + "[solver]\n" + line("solver", "frame");
 }
 
-/// Whether nothing that a scene has gives energy: wind, spheres and pins that move, contact that begins
-/// inside.
+/// Whether nothing that a scene has gives energy: wind, colliders and pins that move, contact that begins
+/// inside, a limit that lifts what hangs.
 bool gives_no_energy(const Model& model) {
   for (const SphereSection& sphere : model.scene.spheres)
     if (sphere.velocity_m_s != glm::dvec3(0.0) || sphere.keys.size() > 1) return false;
+  for (const Solid& solid : solids_of(model.scene))
+    if (solid.section->velocity_m_s != glm::dvec3(0.0) || solid.section->keys.size() > 1) return false;
+  for (const MeshSection& mesh : model.scene.meshes)
+    if (mesh.velocity_m_s != glm::dvec3(0.0) || mesh.keys.size() > 1) return false;
   for (const PinSection& pin : model.scene.pins)
     if (pin.keys.size() > 1) return false;
-  return !model.scene.wind && !model.scene.self_collision &&
+  return !model.scene.wind && !model.scene.self_collision && model.scene.material.strain_limit == 0.0 &&
          deepest_penetration(model, start_state(model)) == 0.0;
 }
 
@@ -112,6 +177,10 @@ bool is_bounded(const Model& model, const Step& step, double pushed_m) {
   for (const SphereSection& sphere : model.scene.spheres)
     moved_m = std::max(moved_m, kFrames * step.frame_s *
                                     std::max(glm::length(sphere.velocity_m_s), fastest_m_s(sphere.keys)));
+  for (const Solid& solid : solids_of(model.scene))
+    moved_m = std::max(moved_m, kFrames * step.frame_s * fastest_m_s(*solid.section, extent_m(solid)));
+  for (const MeshSection& mesh : model.scene.meshes)
+    moved_m = std::max(moved_m, kFrames * step.frame_s * fastest_m_s(mesh, 10.0));
   for (const PinSection& pin : model.scene.pins)
     moved_m = std::max(moved_m, kFrames * step.frame_s * fastest_m_s(pin.keys));
   return moved_m <= 0.5 * model.grid.spacing_m && stretch(model, start_state(model)).maximum <= 0.5;
