@@ -24,8 +24,10 @@ namespace {
 
 constexpr std::uint32_t kFrames = 2;  // of kSubstepsMost at most: 200 substeps
 constexpr std::uint32_t kResolutionMost = 32;
-/// Leapfrog conserves a neighbour of the energy, which near its largest step swings about it.
-constexpr double kEnergyShare = 0.25;
+/// Leapfrog conserves a neighbour of the energy, which near its largest step swings about it: by up to
+/// 1/(1 − 0.9²) = 5.3 times where all of it is in the fastest mode, as in the few particles that a pin may
+/// let go of.
+constexpr double kEnergyShare = 0.25, kEnergyShareLetGo = 4.3;
 
 std::string line(std::string_view section, std::string_view key) {
   const Parameter& parameter = *find_parameter(section, key);
@@ -140,7 +142,6 @@ std::string draw_scene() {
       text += fmt::format("normal = [{:.6f}, 1, {:.6f}]\n", uniform(-1.0, 1.0), uniform(-1.0, 1.0));
   }
   text += draw_other_sections(text);
-  if (chance(0.05)) text += draw_mesh();
   for (int spheres = whole(0, 2); spheres > 0; --spheres) {
     text += "[[spheres]]\n";
     for (const char* key : {"radius", "friction"}) text += line("spheres", key);
@@ -149,6 +150,8 @@ std::string draw_scene() {
   if (chance(0.2))
     text +=
         fmt::format("[self_collision]\nthickness = {:.9e}\n", log_uniform(1e-6, std::min(1.0, 9.9 * cell_m)));
+  else if (chance(0.05))
+    text += draw_mesh();  // which a cloth may be too thick for
   return text + "[solver]\n" + line("solver", "frame");
 }
 
@@ -222,12 +225,15 @@ void makes_no_energy(const std::string& text) {
   const auto simulation = make_cpu_simulation(model, find_solver("leapfrog"), "f64");
   const Energy start = energy(model, simulation->read());
   const double stored_j = start.elastic_j + start.bending_j;
+  const bool lets_go =
+      std::ranges::any_of(model.scene.pins, [](const PinSection& p) { return p.release_s.has_value(); });
+  const double share = lets_go ? kEnergyShareLetGo : kEnergyShare;
   for (std::uint32_t f = 0; f < kFrames; ++f) {
     simulation->advance(step.frame_s, step.substeps);
     const Energy now = energy(model, simulation->read());
     const double moving_j = now.kinetic_j + now.elastic_j + now.bending_j;
     const double rounding_j = 1e-9 * (std::abs(start.gravity_j) + std::abs(now.gravity_j)) + noise_j(model);
-    if (now.total() - start.total() > kEnergyShare * std::max(stored_j, moving_j) + rounding_j)
+    if (now.total() - start.total() > share * std::max(stored_j, moving_j) + rounding_j)
       RC_FAIL(fmt::format("{} J at the start, {} J after frame {}, of which {} J move or are stored, in\n{}",
                           start.total(), now.total(), f + 1, moving_j, text));
   }

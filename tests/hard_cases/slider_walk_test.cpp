@@ -11,6 +11,7 @@
 #include "hard_cases/draw.h"
 #include "model/carry.h"
 #include "model/measures.h"
+#include "scene/effects.h"
 #include "scene/reader.h"
 #include "sim/native_simulation.h"
 
@@ -60,25 +61,32 @@ void move_slider(Scene& scene) {
     parameter.set(scene, item, drawn_value(parameter, typed));
 }
 
-/// Switches an effect on or off.
-void flip_switch(Scene& scene) {
-  switch (whole(0, 4)) {
-    case 0: scene.gravity ? scene.gravity.reset() : void(scene.gravity.emplace()); break;
-    case 1:
-      scene.wind.reset();
-      scene.air ? scene.air.reset() : void(scene.air.emplace(AirSection{0.1}));
-      break;
-    case 2:
-      if (!scene.air) scene.air.emplace(AirSection{0.1});
-      scene.wind ? scene.wind.reset() : void(scene.wind.emplace(WindSection{{0.0, 0.0, 3.0}, 0.5, 1.0}));
-      break;
-    case 3: scene.floor ? scene.floor.reset() : void(scene.floor.emplace(FloorSection{0.1, 0.3})); break;
-    default:
-      if (scene.spheres.empty())
-        scene.spheres.push_back({.center_m = {0.1, 0.3, 0.0}, .radius_m = 0.2});
-      else
-        scene.spheres.clear();
+/// Puts what an effect adds far below the cloth just below it.
+void bring_near(Scene& scene, std::string_view section) {
+  for (const Parameter& parameter : parameters()) {
+    const bool place =
+        parameter.section == section && parameter.kind == ParameterKind::vec3 && parameter.unit == "m";
+    if (!place) continue;
+    for (std::size_t item = 0; item < item_count(scene, section); ++item) {
+      const auto far = std::get<glm::dvec3>(parameter.get(scene, item));
+      parameter.set(scene, item, far + glm::dvec3(0.1, kEffectFar_m - 0.6, 0.0));
+    }
   }
+}
+
+/// Switches an effect of the list on or off, so that a new one is switched by itself.
+void flip_switch(Scene& scene) {
+  const Effect& effect =
+      effects()[static_cast<std::size_t>(whole(0, static_cast<int>(effects().size()) - 1))];
+  if (has_effect(scene, effect)) {
+    scene = without_effect(scene, effect.name);
+    return;
+  }
+  for (const std::string& other : effects_of(scene))
+    if (!stand_together(effect, find_effect(other))) return;
+  if (!effect.solver.empty()) return;  // leapfrog has not got it
+  scene = with_effect(scene, effect.name);
+  bring_near(scene, effect.name);
 }
 
 bool same_cloth(const ClothSection& a, const ClothSection& b) {
