@@ -166,7 +166,7 @@ void walk_stays_finite() {
 }
 
 TEST(SliderWalks, StayFiniteAtEveryFrame) {
-  EXPECT_TRUE(holds("any walk", 60, "WEFT_PROPERTY_WALKS", walk_stays_finite));
+  EXPECT_TRUE(holds("any walk", 40, "WEFT_PROPERTY_WALKS", walk_stays_finite));
 }
 
 }  // namespace
