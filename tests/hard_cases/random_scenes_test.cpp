@@ -104,15 +104,13 @@ std::string draw_mesh() {
 }
 
 /// The sections that draw_scene() does not draw itself: a new one is drawn by itself.
-std::string draw_other_sections(const std::string& drawn) {
+std::string draw_other_sections() {
   constexpr std::array<std::string_view, 13> kElsewhere{
       "",      "cloth",   "material",       "pins",   "gravity", "air",   "wind",
       "floor", "spheres", "self_collision", "meshes", "solver",  "expect"};
   std::string text;
   for (const std::string_view section : section_names()) {
     if (std::ranges::find(kElsewhere, section) != kElsewhere.end()) continue;
-    if (section == "tethers") continue;  // not leapfrog's
-    if (section == "tearing" && drawn.find("strain_limit") != std::string::npos) continue;
     text += draw_section(section, 0.15);
   }
   return text;
@@ -139,7 +137,7 @@ std::string draw_scene() {
     if (chance(0.3))
       text += fmt::format("normal = [{:.6f}, 1, {:.6f}]\n", uniform(-1.0, 1.0), uniform(-1.0, 1.0));
   }
-  text += draw_other_sections(text);
+  text += draw_other_sections();
   for (int spheres = whole(0, 2); spheres > 0; --spheres) {
     text += "[[spheres]]\n";
     for (const char* key : {"radius", "friction"}) text += line("spheres", key);
@@ -148,8 +146,7 @@ std::string draw_scene() {
   if (chance(0.2))
     text +=
         fmt::format("[self_collision]\nthickness = {:.9e}\n", log_uniform(1e-6, std::min(1.0, 9.9 * cell_m)));
-  else if (chance(0.05))
-    text += draw_mesh();  // which a cloth may be too thick for
+  if (chance(0.05)) text += draw_mesh();
   return text + "[solver]\n" + line("solver", "frame");
 }
 
@@ -237,8 +234,13 @@ void makes_no_energy(const std::string& text) {
 TEST(RandomScenes, StayFiniteAndMakeNoEnergy) {
   EXPECT_TRUE(holds("any scene", 1000, "WEFT_PROPERTY_SCENES", [] {
     const std::string text = draw_scene();
-    stays_finite(text);
-    makes_no_energy(text);
+    try {
+      stays_finite(text);
+      makes_no_energy(text);
+    } catch (const Error& refusal) {  // what leapfrog has no passes for, or what does not stand together
+      RC_ASSERT(refusal.code() == Exit::usage);
+      RC_TAG("refused");
+    }
   }));
 }
 
