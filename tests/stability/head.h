@@ -17,8 +17,9 @@ nothing, a free cloth's momentum at round-off.
 ([physics.md](physics.md) "Divergence"); the columns then hold up to the frame before. *stretch*: most
 of a structural spring at any frame's end. *energy*: most above the start's, over what was stored or
 could fall at the start; only where nothing moves and no wind blows. *inside*: deepest in a collider, of
-its inner radius (half of what it is thick where it is thickest), or below the floor, of the cloth's width. *tunnelled*: particles that went through a
-collider from one frame's end to the next. *time*: of the run, reading every frame back included, on a
+its inner radius (half of what it is thick where it is thickest), or below the floor, of the cloth's width.
+*tunnelled*: particles that went through a collider from one frame's end to the next; without meaning in
+`effect-…`, where bodies are put over the cloth. *time*: of the run, reading every frame back included, on a
 busy machine: compare orders of magnitude.
 
 **Reported, not hidden.** Leapfrog's answer to 100 m/s of wind on cloth of 1 kN/m is a large stretch,
@@ -34,9 +35,9 @@ as its velocity does. Held at 10 and 100 m/s here. Not promised: that a body whi
 a substep meets what it passes over, that a mesh thinner than a cell of its grid is met, and that a gap
 between particles wider than the body is closed; links are no colliders.
 
-**Limits.** `limited-…`: a strain limit is one sweep a substep, which pulls a cloth in faster than it can pass
-it on: most stretch may be far beyond the limit for some frames, and what hangs is lifted by it, up to some
-hundredths of what could fall.
+**Limits.** A strain limit (`limited-…`) is one sweep a substep, which passes a pull on by a few springs: most
+stretch may be far beyond the limit for some frames, and what hangs is lifted by it, by up to some hundredths
+of what could fall.
 
 **The wedge.** Where two colliders overlap, or one and the floor, contact serves one after the other. A
 particle may then be inside one by as much as the other pushes it back in; it is pushed out as soon as
