@@ -176,13 +176,8 @@ std::unique_ptr<DrawnSimulation> RunningScene::copy_of(const Model& model,
   return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
 }
 
-study::Bench RunningScene::bench() const {
-  if (on_gpu_ == nullptr) return study::Bench::without_device(true);
-  return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
-}
-
-study::Bench RunningScene::study_bench() const {
-  if (compute_on_ != ComputeOn::device) return study::Bench::without_device(true);
+study::Bench RunningScene::bench_of(bool on_device) const {
+  if (!on_device) return study::Bench::without_device(true);
   return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
 }
 
