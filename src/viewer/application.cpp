@@ -330,6 +330,7 @@ void Application::paint() {
   view_.look.stride = device_.info().software
                           ? stride_for(running_.model().grid, std::min(kPictureCells, share_.cells_most()))
                           : std::uint32_t{1};
+  const Clock::time_point began = Clock::now();
   // A picture that cannot be drawn is no mistake of a person's: it ends the program with its reason.
   painted = painter_.paint(running_, window_.framebuffer(),
                            {.area = view_.area,
@@ -343,6 +344,7 @@ void Application::paint() {
   }
   ++pictures_;
   const Clock::time_point now = Clock::now();
+  paint_s_ = 0.7 * paint_s_ + 0.3 * seconds(now - began);
   const double took_s = std::max(seconds(now - std::exchange(latest_picture_, now)), 1e-4);
   pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;
   attempt([&] {
@@ -368,7 +370,7 @@ PanelFacts Application::facts() const {
   facts.pictures_per_s = pictures_per_s_;
   facts.draw_ms = painter_.draw_ms();
   facts.scale = painter_.scale();
-  facts.share = share_.text(picture_s_, painter_.scale());
+  facts.share = share_.text(picture_s_, paint_s_, painter_.scale());
   facts.automatic_scale = painter_.automatic_scale();
   facts.present_mode = swapchain_.present_mode();
   facts.costs = &costs_;

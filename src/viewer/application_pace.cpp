@@ -24,7 +24,7 @@ void Application::look_at_pictures(double elapsed_s) {
 /// Whether this turn of the loop draws. What a person does is shown at once.
 bool Application::picture_due() const {
   const bool acts = since_s(last_event_) < kAwake_s;
-  const double period_s = acts ? picture_s_ : share_.period_s(picture_s_);
+  const double period_s = acts ? picture_s_ : share_.period_s(picture_s_, paint_s_);
   // Half a turn early rather than half a turn late.
   return share_.step() == 0 || view_.screenshot || since_s(latest_picture_) >= period_s - 0.5 * picture_s_;
 }

@@ -14,10 +14,12 @@ namespace {
 struct Step {
   double pictures_per_s, scale_most;
   std::uint32_t cells_most;
+  double wall_share;  ///< of the main loop, for pictures: what they take beyond it makes them fewer
 };
-constexpr std::array kSteps{Step{1e9, 1.0, 1u << 31}, Step{30.0, 0.8, 192}, Step{20.0, 0.65, 128},
-                            Step{15.0, 0.5, 64}};
-constexpr double kLongestTurn_s = 0.25;  // a pause is no slow motion
+constexpr std::array kSteps{Step{1e9, 1.0, 1u << 31, 1.0}, Step{30.0, 0.8, 192, 0.6},
+                            Step{20.0, 0.65, 128, 0.45}, Step{15.0, 0.5, 64, 0.3}};
+constexpr double kLongestPeriod_s = 0.25;  // however long a picture takes
+constexpr double kLongestTurn_s = 0.25;    // a pause is no slow motion
 
 }  // namespace
 
@@ -44,19 +46,20 @@ void PictureShare::look(double wall_s, bool may, bool slow) {
   }
 }
 
-double PictureShare::period_s(double display_s) const {
-  return std::max(display_s, 1.0 / kSteps[step_].pictures_per_s);
+double PictureShare::period_s(double display_s, double paint_s) const {
+  const double fitting_s = std::min(paint_s / kSteps[step_].wall_share, kLongestPeriod_s);
+  return std::max({display_s, 1.0 / kSteps[step_].pictures_per_s, step_ > 0 ? fitting_s : 0.0});
 }
 
 double PictureShare::scale_most() const { return kSteps[step_].scale_most; }
 
 std::uint32_t PictureShare::cells_most() const { return kSteps[step_].cells_most; }
 
-std::string PictureShare::text(double display_s, double scale) const {
+std::string PictureShare::text(double display_s, double paint_s, double scale) const {
   if (step_ == 0) return "";
   const std::string size = scale < 0.999 ? fmt::format(" at {:.0f} % of the size", 100.0 * scale) : "";
   return fmt::format("{:.0f} pictures/s{}, so that the simulation keeps up",
-                     std::floor(1.0 / period_s(display_s) + 0.5), size);
+                     std::floor(1.0 / period_s(display_s, paint_s) + 0.5), size);
 }
 
 }  // namespace weft

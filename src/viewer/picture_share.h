@@ -19,14 +19,15 @@ class PictureShare {
   std::size_t step() const { return step_; }
   /// Wall time from one picture to the next [s].
   /// @param display_s  what the display would have
-  double period_s(double display_s) const;
+  /// @param paint_s    what the main loop spends on a picture
+  double period_s(double display_s, double paint_s) const;
   /// The largest share of the window's pixels, along each side, that the scene may be drawn with.
   double scale_most() const;
   /// How many of the cloth's cells may be drawn along each side: corners are the cores' work too.
   std::uint32_t cells_most() const;
   /// "15 pictures/s at 50 % of the size, so that the simulation keeps up"; empty for full pictures.
   /// @param scale  that pictures are drawn with
-  std::string text(double display_s, double scale) const;
+  std::string text(double display_s, double paint_s, double scale) const;
 
   static constexpr double kPatience_s = 1.5;  ///< of slow motion before a step down
   static constexpr double kRest_s = 6.0;  ///< without it before a step up is tried; doubled when it failed

@@ -37,7 +37,7 @@ Watched watched_for(const Machine& machine, double wall_s, Pacer& pacer, Picture
     }
     pacer.give_up_rest();
     share.look(turn_s, true, pacer.slow_motion());
-    if (now_s - picture_s >= share.period_s(kDisplay_s) - 0.5 * kDisplay_s) {
+    if (now_s - picture_s >= share.period_s(kDisplay_s, 0.0) - 0.5 * kDisplay_s) {
       busy_s += machine.picture_s * share.scale_most() * share.scale_most();
       picture_s = now_s;
       ++done.pictures;
@@ -55,7 +55,7 @@ TEST(PictureShare, KeepsFullPicturesWhereTheSimulationKeepsUp) {
   const Watched fast = watched_for({.picture_s = 0.008, .frame_s = 0.004}, 20.0, pacer, share);
   EXPECT_EQ(share.step(), 0u);
   EXPECT_NEAR(static_cast<double>(fast.pictures), 1200.0, 12.0);
-  EXPECT_EQ(share.text(kDisplay_s, 1.0), "");
+  EXPECT_EQ(share.text(kDisplay_s, 0.01, 1.0), "");
 }
 
 /// 12 ms a frame are 0.72 s a second; four of them and a picture of 50 ms take 98 ms, in which six are owed.
@@ -69,7 +69,7 @@ TEST(PictureShare, DrawsLessUntilTheSimulationKeepsRealTime) {
   const Watched later = watched_for(machine, 40.0, pacer, share);
   EXPECT_GE(share.step(), 1u);
   EXPECT_GE(static_cast<double>(later.frames), 0.93 * 40.0 * 60.0);
-  EXPECT_NE(share.text(kDisplay_s, share.scale_most()).find("so that the simulation keeps up"),
+  EXPECT_NE(share.text(kDisplay_s, 0.01, share.scale_most()).find("so that the simulation keeps up"),
             std::string::npos);
 }
 
@@ -92,12 +92,14 @@ TEST(PictureShare, TriesSeldomWhatFails) {
   EXPECT_GE(static_cast<double>(last.frames), 0.95 * 100.0 * 60.0);
 }
 
-TEST(PictureShare, EndsAtFifteenPicturesOfHalfTheSize) {
+TEST(PictureShare, EndsAtFifteenPicturesOfHalfTheSizeOrWhatFitsInThreeTenthsOfTheTime) {
   PictureShare share;
   for (int turn = 0; turn < 6000; ++turn) share.look(kDisplay_s, true, true);
-  EXPECT_NEAR(share.period_s(kDisplay_s), 1.0 / 15.0, 1e-12);
+  EXPECT_NEAR(share.period_s(kDisplay_s, 0.01), 1.0 / 15.0, 1e-12);
+  EXPECT_NEAR(share.period_s(kDisplay_s, 0.03), 0.1, 1e-12) << "three tenths of the time, at most";
+  EXPECT_NEAR(share.period_s(kDisplay_s, 10.0), 0.25, 1e-12) << "the window stays a window";
   EXPECT_EQ(share.scale_most(), 0.5);
-  EXPECT_EQ(share.text(kDisplay_s, 0.5),
+  EXPECT_EQ(share.text(kDisplay_s, 0.01, 0.5),
             "15 pictures/s at 50 % of the size, so that the simulation keeps up");
   share.look(kDisplay_s, false, true);  // paused: nothing competes with the pictures
   EXPECT_EQ(share.step(), 0u);
