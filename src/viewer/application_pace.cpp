@@ -21,12 +21,15 @@ void Application::look_at_pictures(double elapsed_s) {
   painter_.set_scale_most(share_.scale_most());
 }
 
-/// Whether this turn of the loop draws. What a person does is shown at once.
+/// Whether this turn of the loop draws. What a person does is shown at once. Where pictures are fewer, none
+/// is begun while the device still draws: waiting for it would keep the next frame from being begun.
 bool Application::picture_due() const {
-  const bool acts = since_s(last_event_) < kAwake_s;
-  const double period_s = acts ? picture_s_ : share_.period_s(picture_s_, paint_s_);
+  if (share_.step() == 0 || view_.screenshot) return true;
+  if (since_s(last_event_) < kAwake_s) return since_s(latest_picture_) >= 0.5 * picture_s_;
+  const double waited_s = since_s(latest_picture_);
+  if (!painter_.idle() && waited_s < PictureShare::kLongestPeriod_s) return false;
   // Half a turn early rather than half a turn late.
-  return share_.step() == 0 || view_.screenshot || since_s(latest_picture_) >= period_s - 0.5 * picture_s_;
+  return waited_s >= share_.period_s(picture_s_, paint_s_) - 0.5 * picture_s_;
 }
 
 /// Displays do not always set the pace (a virtual one never does): wait for the next turn's time.

@@ -81,6 +81,11 @@ void Painter::set_scale(double scale, bool automatic) {
   automatic_ = automatic;
 }
 
+bool Painter::idle() const {
+  const std::uint64_t completed = device_.completed();
+  return std::ranges::all_of(frames_, [=](const Frame& frame) { return frame.submitted <= completed; });
+}
+
 void Painter::set_scale_most(double scale) {
   if (scale == scale_most_) return;
   scale_most_ = scale;

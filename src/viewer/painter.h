@@ -45,6 +45,8 @@ class Painter {
 
   /// Draws and shows one picture; ends the panels' frame in any case. Nothing when the window had no image.
   std::optional<Painted> paint(const RunningScene&, WindowSize framebuffer, const PaintRequest&);
+  /// Whether the device has drawn all that was asked for: paint() would not wait.
+  bool idle() const;
   /// The share of the window's pixels, along each side, that the scene is drawn with.
   double scale() const { return scale_; }
   /// @param automatic  follow the time drawing takes; else `scale` is kept

@@ -18,8 +18,7 @@ struct Step {
 };
 constexpr std::array kSteps{Step{1e9, 1.0, 1u << 31, 1.0}, Step{30.0, 0.8, 192, 0.6},
                             Step{20.0, 0.65, 128, 0.45}, Step{15.0, 0.5, 64, 0.3}};
-constexpr double kLongestPeriod_s = 0.25;  // however long a picture takes
-constexpr double kLongestTurn_s = 0.25;    // a pause is no slow motion
+constexpr double kLongestTurn_s = 0.25;  // a pause is no slow motion
 
 }  // namespace
 
