@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "model/measures.h"
 #include "native/features.h"
 #include "scene/reader.h"
 #include "sim/native_simulation.h"
