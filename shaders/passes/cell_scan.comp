@@ -38,5 +38,7 @@ void main() {
   if (lane == 0u) {
     cells[buckets] = params.nx * params.ny;
     collision_state[kListsBuilt] += 1u;
+    collision_state[kListsArmed] = 1u;
+    collision_state[kPairsListed] = collision_state[kContactGroups] = 0u;  // until a list has an entry
   }
 }

@@ -10,12 +10,12 @@
 // Source: Green 2008, Particle simulation using CUDA; Verlet 1967.
 
 #include "../shared/cells.glsl"
-READS  (real4, position)
-READS  (uint, cells)
-READS  (uint, cell_members)
+READS(real4, position)
+READS(uint, cells)
+READS(uint, cell_members)
 UPDATES(uint, collision_state)
-WRITES (uint, pair_count)
-WRITES (uint, pair_places)
+WRITES(uint, pair_count)
+WRITES(uint, pair_places)
 
 layout(local_size_x = kCollisionGroup) in;
 
@@ -52,5 +52,9 @@ void main() {
   }
   uint kept = min(found, collision[0].capacity);
   pair_count[own.particle] = kept;
+  if (kept > 0u) {
+    atomicOr(collision_state[kPairsListed], 1u);
+    atomicOr(collision_state[kContactGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
+  }
   if (found > kept) atomicAdd(collision_state[kPairsDropped], found - kept);
 }

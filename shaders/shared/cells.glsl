@@ -45,6 +45,24 @@ uint particle_at(Cells c, uint place) {
   return ij.y * c.nx + ij.x;
 }
 
+// What a contact adds to touch_weight of a particle that moves by `weight` of it; never nothing.
+uint touch_units(real weight) {
+  precise real units = weight * real(kTouchQuantum_1);
+  return uint(units) + 1u;
+}
+
+// What touch_weight adds up to.
+real touching_in(uint units) {
+  precise real sum = real(units) * (1.0 / real(kTouchQuantum_1));
+  return sum;
+}
+
+// The speed at which contacts that overlap by `depth` are to part.
+real parting_speed(real depth) {
+  precise real speed = min(max(depth, 0.0), collision[0].deep_m) * collision[0].recover_1_s;
+  return speed;
+}
+
 // Whether the grid covers the place: not when it is too far away, or no number.
 bool covered(Cells c, real3 x) {
   precise real3 scaled = x * c.inverse_cell_1_m;

@@ -22,7 +22,17 @@ WEFT_REAL_STRUCT(Collision) {
   uint column_bits;
   uint bucket_mask;  // buckets − 1; the buckets are a power of two
   uint capacity;     // pairs that a particle's list has room for
-  uint centre;       // the particle that motion is measured against
+  uint carried;      // 1: the motion that all share is taken from everyone's; 0: something is pinned
+  // Surfaces: particle and triangle, edge and edge.
+  uint surface_capacity;  // entries that a particle's list of them has room for
+  real surface_limit_m;   // the distance they keep
+  real surface_limit_squared_m2;
+  real surface_reach_squared_m2;  // nearer when the lists are made, and they are listed
+  real roam_max_m;                // the farthest that a particle may be from where the lists were made
+  real flat_min_m;                // a patch of cloth that stretches lengths by no less has no pair in reach
+  real deep_m;                    // of what contacts overlap, what counts
+  real recover_1_s;               // they part with that much speed a metre of it
+  real friction;
 };
 #ifdef __cplusplus
 using Collision = CollisionOf<float>;
@@ -32,10 +42,35 @@ using Collision = CollisionOf<float>;
 // passes over the cloth that make the lists anew, and of the scan. x = 0: the lists hold and nothing runs.
 WEFT_CONST uint kListGroups = 0u;
 WEFT_CONST uint kScanGroups = 3u;
-WEFT_CONST uint kListsBuilt = 6u;    // how often the lists were made
-WEFT_CONST uint kPairsDropped = 7u;  // entries that found no room in a list, all times together
-WEFT_CONST uint kCollisionStateWords = 8u;
-WEFT_CONST uint kCollisionGroup = 64u;  // invocations of a workgroup over the cloth
+WEFT_CONST uint kListsBuilt = 6u;     // how often the lists were made
+WEFT_CONST uint kPairsDropped = 7u;   // entries that found no room in a list, all times together
+WEFT_CONST uint kContactGroups = 8u;  // x, y, z of the passes that push apart; x = 0: nothing to do
+WEFT_CONST uint kPairsListed = 11u;   // 1: some list has an entry
+WEFT_CONST uint kListsArmed = 12u;    // 1: lists were made since the host wrote the state
+WEFT_CONST uint kHeldBack = 13u;      // how often a particle's motion was cut, all times together
+WEFT_CONST uint kLongestEdge = 14u;   // bits of the longest edge's square [m²] in float
+WEFT_CONST uint kSmallestGap = 15u;   // bits of the smallest distance [m] of two surfaces in this frame
+WEFT_CONST uint kCollisionStateWords = 16u;
+WEFT_CONST uint kCarrierSamples = 64u;  // particles whose motion stands for the cloth's
+WEFT_CONST uint kCarrierBuilt = 0u;     // rows of `carrier`: since the lists were made [m]
+WEFT_CONST uint kCarrierNear = 1u;      // since contacts were last looked at [m]
+WEFT_CONST uint kCarrierVelocity = 2u;  // now [m/s]
+WEFT_CONST uint kCarrierRows = 3u;
+WEFT_CONST uint kInfinity = 0x7f800000u;  // bits of a float
+
+// A particle's motion between two looks at its surroundings is at most this share of the nearest surface's
+// distance: two of them never meet, and an eighth is left for rounding.
+WEFT_CONST float kRoamShare = 0.4375f;
+WEFT_CONST float kWeightMin = 0.25f;           // of what divides a contact: where only a far end is free
+WEFT_CONST float kTouchQuantum_1 = 4096.0f;    // units of touch_weight in a whole particle
+WEFT_CONST float kClosingMost_m_s = 256.0f;    // of two surfaces; what is above is left to the next time
+WEFT_CONST float kKickQuantum_1 = 1048576.0f;  // units of the sums of kicks in a m/s
+WEFT_CONST float kEdgeTiny_m2 = 1e-24f;        // guards the closest points of edges without length
+WEFT_CONST uint kSurfaceCodeShift = 26u;       // entry of a list: code above, place below
+WEFT_CONST uint kSurfaceTriangle = 36u;        // code − this: which triangle round the place
+WEFT_CONST uint kSumPlanes = 3u;               // of `surface_sums`: x, y, z
+WEFT_CONST int kCellsAcrossMax = 5;            // of the search for surfaces along an axis
+WEFT_CONST uint kCollisionGroup = 64u;         // invocations of a workgroup over the cloth
 
 WEFT_SHARED_END
 #endif

@@ -4,5 +4,9 @@ layout(constant_id = 30) const uint sheet_rows = 0u;  // of each cloth; 0: there
 
 uint rows_of_cloth() { return sheet_rows == 0u ? params.ny : sheet_rows; }
 
+bool same_cloth(uint row_a, uint row_b) {
+  return sheet_rows == 0u || row_a / sheet_rows == row_b / sheet_rows;
+}
+
 // The row within its own cloth.
 uint own_row(uint j) { return sheet_rows == 0u ? j : j % sheet_rows; }

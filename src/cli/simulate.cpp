@@ -112,8 +112,17 @@ bool report_self_collision(const Options& o, Simulation& simulation) {
   const std::optional<SelfCollisionReport> report = simulation.self_collision();
   if (!report) return true;
   if (o.verbose)
-    std::cerr << fmt::format("weft: self-collision made its lists {}\n",
-                             counted(report->lists_built, "time"));
+    std::cerr << fmt::format(
+        "weft: self-collision made its lists {}; the smallest gap of the last frame is {}\n",
+        counted(report->lists_built, "time"),
+        report->smallest_gap_m ? fmt::format("{:.3g} m", *report->smallest_gap_m)
+                               : std::string("beyond the lists' reach"));
+  if (report->held_back > 0)
+    std::cerr << fmt::format(
+        "weft: self-collision held a particle's motion back {}, so that no layers pass through each other: "
+        "there the cloth was too fast or too crowded for its thickness (more substeps, or a greater "
+        "self_collision.thickness, follow it better)\n",
+        counted(report->held_back, "time"));
   if (report->pairs_dropped == 0) return true;
   std::cerr << fmt::format(
       "weft: self-collision: {} pairs found no room in the lists, so that contacts may have been missed: the "

@@ -13,7 +13,10 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& cells = buffers.words_of(BufferId::cells);
   std::partial_sum(cells.begin(), cells.end() - 1, cells.begin());
   cells.back() = context.model.grid.count();
-  ++buffers.words_of(BufferId::collision_state)[shared::kListsBuilt];
+  auto& state = buffers.words_of(BufferId::collision_state);
+  ++state[shared::kListsBuilt];
+  state[shared::kListsArmed] = 1;
+  state[shared::kPairsListed] = state[shared::kContactGroups] = 0;
 }
 
 /// One workgroup.

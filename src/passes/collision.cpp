@@ -16,6 +16,13 @@ namespace {
 constexpr double kSqueezeMax = 0.85;  // of a pair's flat distance: nearer on the cloth, springs are in charge
 constexpr double kThicknessMax = 10.0;  // cells; the table of limits has room for that
 constexpr std::uint32_t kIntervalMax = 16;
+constexpr double kSurfaceLimit = 0.25;  // cells: what surfaces keep of a thickness that is more
+constexpr double kSurfaceReach =
+    0.55;  // cells; less than the 0.707 from a particle to a triangle of a flat cloth
+constexpr double kRecoverShare = 0.25;  // of what contacts overlap, what they part by until the next look
+constexpr double kStaleShare = 0.35;    // of the skin: the rest is for motion until the next look
+constexpr double kPileLayers = 20;  // that contacts hold, pressed to three quarters of the distance they keep
+constexpr std::uint32_t kPlaceBits = 26;
 
 /// Entries that a list needs where layers lie as densely as they can: discs of the cloth within reach, one
 /// layer a thickness; half as much again and 4, because contact is never that even.
@@ -26,13 +33,39 @@ std::uint32_t list_capacity(double thickness_cells, double skin_cells, std::uint
   return static_cast<std::uint32_t>(std::min(std::ceil(1.5 * dense) + 4.0, particles - 1.0));
 }
 
+/// Entries that a list of triangles and edges needs: some 20 of each layer within reach. Layers that are
+/// crushed lie far denser than their thickness lets them, so that small cloths have room for fifty; all
+/// lists together stay within what every device binds at once where 96 each allow that.
+std::uint32_t surface_capacity(std::uint32_t particles) {
+  constexpr std::uint32_t kEntriesBound = 1u << 25;  // of 4 bytes: 128 MiB
+  return std::clamp(kEntriesBound / particles, 96u, 1024u);
+}
+
+/// Edge of the grid's cubes: eight of them hold what is within reach of a pair's limit and, where edges are
+/// stretched by a tenth, of a surface. A hundredth more than that: rounding of x / cell.
+double grid_cell_m(const CollisionLayout& layout, double spacing_m) {
+  const double edge_m = 1.1 * std::numbers::sqrt2 * spacing_m;
+  const double search_m = std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m);
+  return 2.02 * std::max(layout.thickness_m + layout.skin_m, search_m);
+}
+
 /// First row whose pairs are so far apart on the cloth that they keep the whole thickness.
 std::uint32_t last_row(double thickness_cells) {
   const double whole = 0.5 * std::numbers::pi * thickness_cells;
   return static_cast<std::uint32_t>(std::max(1.0, std::ceil(whole * whole)));
 }
 
-/// The fastest anything moves that falls, is blown or is hit [m/s]; never less than 1.
+/// The longest time [s] between two looks at contacts with which those of a pile hold it. Each takes a
+/// quarter of what it would take alone, for it has neighbours above and below: with that the speed at which
+/// they part, a quarter of recover · deep, is the weight's gain in that time.
+double pile_time_s(const Model& model, const CollisionLayout& layout) {
+  if (!model.scene.gravity) return 1.0;
+  const double weight_m_s2 = kPileLayers * glm::length(model.scene.gravity->acceleration_m_s2);
+  return std::sqrt(kRecoverShare * layout.deep_m / (4.0 * std::max(weight_m_s2, 1e-3)));
+}
+
+}  // namespace
+
 double design_speed_m_s(const Model& model) {
   const Scene& scene = model.scene;
   double drop_m = std::hypot(model.grid.width_m(), model.grid.height_m());
@@ -58,8 +91,6 @@ double design_speed_m_s(const Model& model) {
   return speed_m_s;
 }
 
-}  // namespace
-
 double pair_limit_m(double thickness_m, double flat_m) {
   const double turn = std::min(flat_m / thickness_m, 0.5 * std::numbers::pi);
   return std::min(thickness_m * std::sin(turn), kSqueezeMax * flat_m);
@@ -75,19 +106,47 @@ CollisionLayout collision_layout(const Model& model) {
                 kThicknessMax);
   CollisionLayout layout{};
   layout.thickness_m = thickness_m;
-  layout.skin_m = std::max(0.25 * thickness_m, 0.5 * a);
-  layout.cell_m = 2.02 * (thickness_m + layout.skin_m);  // a hundredth more than reach: rounding of x / cell
+  layout.surface_limit_m = std::min(thickness_m, kSurfaceLimit * a);
+  layout.surface_reach_m = kSurfaceReach * a;
+  layout.deep_m = 0.5 * layout.surface_limit_m;
+  layout.skin_m = layout.surface_reach_m - layout.surface_limit_m;
+  layout.stale_m = kStaleShare * layout.skin_m;
+  layout.roam_max_m = 0.499 * layout.surface_reach_m;
+  layout.cell_m = grid_cell_m(layout, a);
   layout.limit_last = last_row(thickness_m / a);
+  layout.surface_capacity = surface_capacity(model.grid.count());
+  layout.carried = std::ranges::none_of(model.relative_inverse_mass, [](double w) { return w == 0.0; });
   layout.column_bits = static_cast<std::uint32_t>(std::bit_width(model.grid.nx - 1));
+  if (layout.column_bits + static_cast<std::uint32_t>(std::bit_width(model.grid.rows() - 1)) > kPlaceBits)
+    throw error(Exit::usage,
+                "{}: [self_collision] with {} x {} particles: it takes at most 8192 x 8192 (lower "
+                "cloth.resolution)",
+                model.scene.source.empty() ? "scene" : model.scene.source, model.grid.nx, model.grid.rows());
   layout.buckets = std::bit_ceil(model.grid.count());
+  layout.recover_1_s = kRecoverShare / look_time_s(model, layout);
   layout.capacity = list_capacity(thickness_m / a, layout.skin_m / a, model.grid.count());
-  layout.centre = model.grid.index(model.grid.nx / 2, model.grid.ny / 2);
   return layout;
 }
 
+double look_time_s(const Model& model, const CollisionLayout& layout) {
+  const double room_m = std::min(layout.roam_max_m - layout.stale_m, 0.8 * layout.surface_limit_m);
+  return std::min(room_m / design_speed_m_s(model), pile_time_s(model, layout));
+}
+
 std::uint32_t contact_interval(const Model& model, double substep_s) {
-  const double time_s = 0.5 * model.scene.self_collision->thickness_m / design_speed_m_s(model);
-  return static_cast<std::uint32_t>(std::clamp(std::floor(time_s / substep_s), 1.0, double{kIntervalMax}));
+  const CollisionLayout layout = collision_layout(model);
+  const double time_s = look_time_s(model, layout);
+  const double substeps = std::clamp(std::floor(time_s / substep_s), 1.0, double{kIntervalMax});
+  return std::bit_floor(static_cast<std::uint32_t>(substeps));
+}
+
+std::uint32_t contact_substeps(const Model& model) {
+  if (!model.scene.self_collision) return 1;
+  const CollisionLayout layout = collision_layout(model);
+  const double half_m = 0.5 * layout.surface_limit_m;
+  const double step_s = std::min(half_m / design_speed_m_s(model), pile_time_s(model, layout));
+  const double substeps = std::ceil(model.scene.solver.frame_s / step_s);
+  return static_cast<std::uint32_t>(std::clamp(substeps, 1.0, 0x1p24));
 }
 
 std::vector<PairLimit<double>> pair_limits(const Model& model, const CollisionLayout& layout) {
@@ -113,7 +172,17 @@ shared::CollisionOf<T> make_collision(const Model& model) {
   collision.column_bits = view.layout.column_bits;
   collision.bucket_mask = view.layout.buckets - 1;
   collision.capacity = view.layout.capacity;
-  collision.centre = view.layout.centre;
+  const bool in_the_way = model.scene.floor.has_value() || !model.scene.spheres.empty();
+  collision.carried = view.layout.carried ? (in_the_way ? 1 : 2) : 0;
+  collision.surface_capacity = view.layout.surface_capacity;
+  collision.surface_limit_m = view.surface_limit;
+  collision.surface_limit_squared_m2 = view.surface_limit_squared;
+  collision.surface_reach_squared_m2 = view.surface_reach_squared;
+  collision.roam_max_m = view.roam_max;
+  collision.flat_min_m = view.flat_min;
+  collision.deep_m = view.deep;
+  collision.recover_1_s = view.recover;
+  collision.friction = view.friction;
   return collision;
 }
 

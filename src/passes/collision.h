@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "passes/host_buffers.h"
@@ -21,19 +22,38 @@ struct CollisionLayout {
   std::uint32_t column_bits;  ///< of a place, for the column
   std::uint32_t buckets;      ///< a power of two, at least the number of particles
   std::uint32_t capacity;     ///< entries a particle's list has room for
-  std::uint32_t centre;       ///< the particle that motion is measured against
+  bool carried;               ///< nothing is pinned: the motion that all share is taken from everyone's
+  double surface_limit_m;     ///< the distance that triangles and edges keep
+  double surface_reach_m;     ///< nearer when the lists are made, and they are listed
+  double stale_m;             ///< a particle that has moved so far makes the lists stale
+  double roam_max_m;          ///< and this far none may be from where they were made
+  double deep_m;              ///< of what contacts overlap, what counts
+  double recover_1_s;         ///< they part with that much speed a metre of it
+  std::uint32_t surface_capacity;  ///< entries a particle's list of triangles and edges has room for
 };
 
-/// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth.
+/// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth, or its particles' places
+///         do not fit a list's entry.
 CollisionLayout collision_layout(const Model& model);
 
 /// The distance [m] that a pair keeps whose distance on the flat cloth is `flat_m`: the thickness, or less
 /// where the pair is so near on the cloth that a fold of that thickness brings it nearer (docs/physics.md).
 double pair_limit_m(double thickness_m, double flat_m);
 
-/// Every how many substeps of that length pairs are looked at: as many as leave no two particles time to come
-/// nearer by more than half the thickness at the speed of the fastest fall the scene allows; at most 16.
+/// The fastest that anything can be expected to move against anything [m/s]: what falls, is blown or is hit.
+double design_speed_m_s(const Model& model);
+
+/// The longest time [s] between two looks at motion and contacts: at the design speed no particle leaves the
+/// room that the lists promise, and the contacts of a pile of kPileLayers hold it.
+double look_time_s(const Model& model, const CollisionLayout& layout);
+
+/// Every how many substeps of that length motion is looked at: as look_time_s allows; a power of two, at
+/// most 16.
 std::uint32_t contact_interval(const Model& model, double substep_s);
+
+/// The fewest substeps of a frame with which, at the design speed, a particle moves by at most half the
+/// surfaces' limit in one; 1 without [self_collision].
+std::uint32_t contact_substeps(const Model& model);
 
 /// The block that the device reads, computed in double and rounded once to T.
 template <class T = float>
@@ -59,6 +79,7 @@ struct CollisionView {
   CollisionLayout layout;
   std::vector<PairLimit<T>> limits;
   T inverse_cell, moved_squared_max;
+  T surface_limit, surface_limit_squared, surface_reach_squared, roam_max, flat_min, deep, recover, friction;
 
   explicit CollisionView(const Model& model)
       : grid(model.grid), layout(collision_layout(model)), limits(layout.limit_last + 1) {
@@ -68,12 +89,15 @@ struct CollisionView {
                           static_cast<T>(p.reach_squared)};
     });
     inverse_cell = static_cast<T>(1.0 / layout.cell_m);
-    moved_squared_max = static_cast<T>(moved_squared_max_m2(layout));
-  }
-
-  /// Slightly less than half the skin, so that rounding cannot hide a pair.
-  static double moved_squared_max_m2(const CollisionLayout& layout) {
-    return std::pow(0.499 * layout.skin_m, 2);
+    moved_squared_max = static_cast<T>(layout.stale_m * layout.stale_m);
+    surface_limit = static_cast<T>(layout.surface_limit_m);
+    surface_limit_squared = static_cast<T>(layout.surface_limit_m * layout.surface_limit_m);
+    surface_reach_squared = static_cast<T>(layout.surface_reach_m * layout.surface_reach_m);
+    roam_max = static_cast<T>(layout.roam_max_m);
+    flat_min = static_cast<T>(layout.surface_reach_m * std::numbers::sqrt2);
+    deep = static_cast<T>(layout.deep_m);
+    recover = static_cast<T>(layout.recover_1_s);
+    friction = static_cast<T>(model.scene.self_collision->friction);
   }
 
   std::uint32_t place_of(std::uint32_t particle) const {
@@ -126,9 +150,39 @@ T squared_distance(const glm::vec<4, T>& a, const glm::vec<4, T>& b) {
   return (x * x + y * y) + z * z;
 }
 
+/// What a contact adds to touch_weight of a particle that moves by `weight` of it; never nothing.
+template <class T>
+std::uint32_t touch_units(T weight) {
+  return static_cast<std::uint32_t>(weight * static_cast<T>(shared::kTouchQuantum_1)) + 1;
+}
+
+/// The weights of a particle's contacts, added up.
+template <class T>
+T touching_in(const std::vector<std::uint32_t>& weights, std::uint32_t particle) {
+  return static_cast<T>(weights[particle]) * (T(1) / static_cast<T>(shared::kTouchQuantum_1));
+}
+
+/// The speed at which contacts that overlap by `depth` are to part.
+template <class T>
+T parting_speed(const CollisionView<T>& view, T depth) {
+  return std::min(std::max(depth, T(0)), view.deep) * view.recover;
+}
+
 /// Whether the lists are being made anew: what the passes between pair_check and pair_gather ask first.
 inline bool lists_stale(const HostWords& buffers) {
   return buffers.words_of(BufferId::collision_state)[shared::kListGroups] != 0;
+}
+
+/// Says that some list has an entry: contacts are to be looked at.
+inline void mark_listed(const Grid& grid, HostWords& buffers) {
+  auto& state = buffers.words_of(BufferId::collision_state);
+  state[shared::kPairsListed] = 1;
+  state[shared::kContactGroups] = (grid.nx + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
+}
+
+/// Whether contacts are due: what the passes from touch_weight to self_contact ask first.
+inline bool contacts_due(const HostWords& buffers) {
+  return buffers.words_of(BufferId::collision_state)[shared::kContactGroups] != 0;
 }
 
 }  // namespace weft

@@ -52,6 +52,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) dropped += gather(view, p, buffers);
   });
   buffers.words_of(BufferId::collision_state)[shared::kPairsDropped] += dropped;
+  if (std::ranges::any_of(buffers.words_of(BufferId::pair_count), [](auto n) { return n > 0; }))
+    mark_listed(grid, buffers);
 }
 
 }  // namespace

@@ -42,13 +42,17 @@ std::span<const Pass* const> passes() {
                                       &watch,
                                       &judge,
                                       &keep_sound,
+                                      &carry,
                                       &pair_check,
                                       &cell_count,
                                       &cell_scan,
                                       &cell_fill,
                                       &cell_sort,
                                       &pair_gather,
-                                      &touch_count,
+                                      &surface_gather,
+                                      &touch_weight,
+                                      &surface_touch,
+                                      &surface_contact,
                                       &self_contact};
   return kPasses;
 }

@@ -42,14 +42,18 @@ extern const Pass watch;       ///< divergence: the fastest particle and the ene
 extern const Pass judge;       ///< whether the state is sound
 extern const Pass keep_sound;  ///< the last state that was
 
-extern const Pass pair_check;    ///< self-collision: do the pair lists still hold; clears the grid
-extern const Pass cell_count;    ///< particles of each bucket of the grid
-extern const Pass cell_scan;     ///< counts to the ends of the buckets
-extern const Pass cell_fill;     ///< particles into the buckets
-extern const Pass cell_sort;     ///< in ascending order
-extern const Pass pair_gather;   ///< lists of pairs within limit and skin
-extern const Pass touch_count;   ///< pairs nearer than their limit
-extern const Pass self_contact;  ///< pushes them apart
+extern const Pass carry;            ///< self-collision: the motion that all of the cloth shares
+extern const Pass pair_check;       ///< self-collision: keeps motion in its room; do the lists still hold
+extern const Pass cell_count;       ///< particles of each bucket of the grid
+extern const Pass cell_scan;        ///< counts to the ends of the buckets
+extern const Pass cell_fill;        ///< particles into the buckets
+extern const Pass cell_sort;        ///< in ascending order
+extern const Pass pair_gather;      ///< lists of pairs within limit and skin
+extern const Pass surface_gather;   ///< lists of near triangles and edges
+extern const Pass touch_weight;      ///< pairs nearer than their limit
+extern const Pass surface_touch;    ///< distances of near triangles and edges
+extern const Pass surface_contact;  ///< what those that touch give their particles
+extern const Pass self_contact;     ///< pushes them apart
 
 /// Whether the pass is one of the three that look for divergence at every frame's end.
 bool watches(const Pass& pass);

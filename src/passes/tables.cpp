@@ -2,6 +2,7 @@
 #include "passes/tables.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "model/distance_grid.h"
@@ -36,7 +37,13 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
 
 std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
   constexpr std::uint32_t kGroup = shared::kCollisionGroup;
-  return {(grid.nx + kGroup - 1) / kGroup, grid.rows(), 1, 1, 1, 1, 0, 0};
+  std::vector<std::uint32_t> state(shared::kCollisionStateWords, 0);
+  const std::array<std::uint32_t, 6> lists{(grid.nx + kGroup - 1) / kGroup, grid.rows(), 1, 1, 1, 1};
+  std::ranges::copy(lists, state.begin());
+  state[shared::kContactGroups + 1] = grid.rows();
+  state[shared::kContactGroups + 2] = 1;
+  state[shared::kSmallestGap] = shared::kInfinity;
+  return state;
 }
 
 namespace {

@@ -32,6 +32,10 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::collision_state: return shared::kCollisionStateWords;
     case BufferId::cells: return collision_layout(model).buckets + std::uint64_t{1};
     case BufferId::pair_places: return std::uint64_t{collision_layout(model).capacity} * model.grid.count();
+    case BufferId::surface_pairs:
+      return std::uint64_t{collision_layout(model).surface_capacity} * model.grid.count();
+    case BufferId::carrier: return shared::kCarrierRows;
+    case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
     case BufferId::torn_mesh: return torn_mesh_words(model.grid);
@@ -50,6 +54,54 @@ bool host_written(BufferId id) {
 }
 
 std::uint32_t slot_count(BufferId id) { return host_written(id) ? kFrameSlots : 1; }
+
+namespace {
+
+std::span<const BufferId> collision_buffers_of(const Pass& pass) {
+  using enum BufferId;
+  static constexpr std::array kCarry = {params,        position,  velocity, built_position,
+                                        near_position, collision, carrier};
+  static constexpr std::array kPairCheck = {params,          position,       velocity,      collision,
+                                            collision_state, built_position, near_position, surface_bound,
+                                            carrier,         cells};
+  static constexpr std::array kCellCount = {params,          position,       collision,
+                                            collision_state, built_position, cells};
+  static constexpr std::array kCellScan = {params, collision, collision_state, cells};
+  static constexpr std::array kCellFill = {params,          position, collision,
+                                           collision_state, cells,    cell_arrivals};
+  static constexpr std::array kCellSort = {params, position,      collision,   collision_state,
+                                           cells,  cell_arrivals, cell_members};
+  static constexpr std::array kPairGather = {params, position,     collision,  collision_state,
+                                             cells,  cell_members, pair_count, pair_places};
+  static constexpr std::array kSurfaceGather = {params,          position,      collision,
+                                                collision_state, cells,         cell_members,
+                                                surface_count,   surface_pairs, surface_bound};
+  static constexpr std::array kTouchCount = {params,       position,      velocity,     collision,
+                                             pair_count,   pair_places,   touch_weight, surface_bound,
+                                             surface_sums, near_position, near_velocity};
+  static constexpr std::array kSurfaceTouch = {params,        collision,     collision_state, near_position,
+                                               surface_count, surface_pairs, surface_bound,   touch_weight};
+  static constexpr std::array kSurfaceContact = {params,        collision,     near_position, near_velocity,
+                                                 surface_count, surface_pairs, touch_weight,  surface_sums};
+  static constexpr std::array kSelfContact = {params,        velocity,      collision,  collision_state,
+                                              near_position, near_velocity, pair_count, pair_places,
+                                              touch_weight,  surface_sums};
+  if (&pass == &carry) return kCarry;
+  if (&pass == &pair_check) return kPairCheck;
+  if (&pass == &cell_count) return kCellCount;
+  if (&pass == &cell_scan) return kCellScan;
+  if (&pass == &cell_fill) return kCellFill;
+  if (&pass == &cell_sort) return kCellSort;
+  if (&pass == &pair_gather) return kPairGather;
+  if (&pass == &surface_gather) return kSurfaceGather;
+  if (&pass == &weft::touch_weight) return kTouchCount;
+  if (&pass == &surface_touch) return kSurfaceTouch;
+  if (&pass == &surface_contact) return kSurfaceContact;
+  if (&pass == &self_contact) return kSelfContact;
+  return {};
+}
+
+}  // namespace
 
 std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kIntegrate = {BufferId::params,   BufferId::substeps,
@@ -96,19 +148,6 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
                                           BufferId::draw_position, BufferId::draw_normal};
   if (&pass == &present) return kPresent;
   using enum BufferId;
-  static constexpr std::array kPairCheck = {params,          position,       collision,
-                                            collision_state, built_position, cells};
-  static constexpr std::array kCellScan = {params, collision, collision_state, cells};
-  static constexpr std::array kCellFill = {params,          position, collision,
-                                           collision_state, cells,    cell_arrivals};
-  static constexpr std::array kCellSort = {params, position,      collision,   collision_state,
-                                           cells,  cell_arrivals, cell_members};
-  static constexpr std::array kPairGather = {params, position,     collision,  collision_state,
-                                             cells,  cell_members, pair_count, pair_places};
-  static constexpr std::array kTouchCount = {params,     position,    collision,  collision_state,
-                                             pair_count, pair_places, touch_count};
-  static constexpr std::array kSelfContact = {params,    position,   position_next, velocity,   velocity_next,
-                                              collision, pair_count, pair_places,   touch_count};
   static constexpr std::array kPinPlace = {params, substeps, position, velocity, moved_pins};
   static constexpr std::array kSolidContact = {params, substeps, position, position_next, velocity};
   static constexpr std::array kAerodynamics = {params,        substeps, position,
@@ -147,14 +186,7 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   if (&pass == &watch) return kWatch;
   if (&pass == &judge) return kJudge;
   if (&pass == &keep_sound) return kKeep;
-  if (&pass == &pair_check || &pass == &cell_count) return kPairCheck;
-  if (&pass == &cell_scan) return kCellScan;
-  if (&pass == &cell_fill) return kCellFill;
-  if (&pass == &cell_sort) return kCellSort;
-  if (&pass == &pair_gather) return kPairGather;
-  if (&pass == &weft::touch_count) return kTouchCount;
-  if (&pass == &self_contact) return kSelfContact;
-  return {};
+  return collision_buffers_of(pass);
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
+#include "passes/collision.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -38,6 +39,16 @@ std::string buffer_note(BufferId id, const Plan& plan) {
                      substep_row_capacity(plan.row_count()));
 }
 
+/// Says where self-collision, and not stability, decides how many substeps a frame has.
+std::string raised_text(const Plan& plan, const Model& model) {
+  const std::uint32_t wanted = contact_substeps(model);
+  if (wanted <= 1 || model.scene.solver.substeps > 0 || plan.substeps > wanted) return {};
+  return fmt::format(
+      "Self-collision raises the substeps to {}: at {:.3g} m/s nothing may move by half the distance that "
+      "layers keep in one.\n",
+      wanted, design_speed_m_s(model));
+}
+
 }  // namespace
 
 std::string describe(const Plan& plan, const Model& model) {
@@ -57,6 +68,7 @@ std::string describe(const Plan& plan, const Model& model) {
       text += fmt::format("Passes of self-collision run in every {}th substep.\n", step.interval);
       break;
     }
+  text += raised_text(plan, model);
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",
                         plan.solver->name);

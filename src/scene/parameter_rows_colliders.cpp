@@ -205,6 +205,13 @@ const Parameter kColliderRows[] = {
          .unit = "m",
          .about = "full thickness of the cloth in contact",
          .example = "0.004"}),
+    row<&Scene::self_collision, &SelfCollisionSection::friction>(
+        {.section = "self_collision",
+         .key = "friction",
+         .maximum = 100,
+         .slider_maximum = 1,
+         .about = "Coulomb coefficient between layers",
+         .example = "0.3"}),
 
     row<&Scene::tethers, &TethersSection::slack>(
         {.section = "tethers",

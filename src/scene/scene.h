@@ -159,6 +159,7 @@ struct TearingSection {
 
 struct SelfCollisionSection {
   double thickness_m = 0.0;  ///< required in its section
+  double friction = 0.0;     ///< between layers
 };
 
 struct SolverSection {

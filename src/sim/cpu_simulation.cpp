@@ -57,6 +57,7 @@ void CpuSimulation<T>::write(const State& state) {
                 model_.grid.count());
   under_way_ = false;
   load_state(model_, state, buffers_);
+  if (model_.scene.self_collision) buffers_.words_of(BufferId::collision_state)[shared::kListsArmed] = 0;
   buffers_written();
   time_s_ = state.time_s;
   budget_ = SpeedBudget(model_, state, plan_.in_double());

@@ -130,6 +130,7 @@ class VulkanSimulation final : public GpuSimulation {
   enum class Watched { yes, no };
   /// Runs what follows a frame's last kick on the state as it is; with the watch or without.
   void run_frame_end(Watched watched);
+  void forget_lists();
   void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
   void submit(FrameCommands::Chunk& chunk, Slot& slot);
   void finish(Slot& slot);
@@ -281,6 +282,14 @@ State VulkanSimulation::read() {
   return read_state(buffers_, parity_, model_, plan_, time_s_);
 }
 
+/// What self-collision knows of where particles were says nothing of a state from outside.
+void VulkanSimulation::forget_lists() {
+  if (!model_.scene.self_collision) return;
+  const std::uint32_t no = 0;
+  buffers_.at(BufferId::collision_state)
+      .write(std::as_bytes(std::span(&no, 1)), shared::kListsArmed * sizeof no);
+}
+
 void VulkanSimulation::write(const State& state) {
   wait();
   frame_.order.reset();
@@ -288,6 +297,7 @@ void VulkanSimulation::write(const State& state) {
   time_s_ = state.time_s;
   budget_ = SpeedBudget(model_, state, plan_.in_double());
   write_allowance(0);
+  forget_lists();
   log_.begin(time_s_);
   const std::array<std::uint32_t, shared::kWatchStateWords> sound{};
   buffers_.at(BufferId::watch_state).write(std::as_bytes(std::span(sound)));
@@ -306,9 +316,11 @@ void VulkanSimulation::run_frame_end(Watched watched) {
   device_.run_once([&](VkCommandBuffer commands) {
     gpu::Recorder recorder(device_, commands);
     for (std::size_t step = 0; step < plan_.steps.size(); ++step) {
-      if (plan_.steps[step].block != Block::frame_end || program_.flips(step)) continue;
-      if (watched == Watched::yes || !watches(*plan_.steps[step].pass))
-        program_.dispatch(recorder, step, parity_, 0, 0);
+      const Pass& pass = *plan_.steps[step].pass;
+      if (plan_.steps[step].block != Block::frame_end || program_.flips(step) || &pass == &carry ||
+          &pass == &pair_check)
+        continue;
+      if (watched == Watched::yes || !watches(pass)) program_.dispatch(recorder, step, parity_, 0, 0);
     }
     recorder.finish();
   });

@@ -1,5 +1,6 @@
 // A running cloth: the plan interpreted on one device, frame by frame.
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,6 +23,10 @@ struct FrameStats {
 struct SelfCollisionReport {
   std::uint32_t lists_built = 0;    ///< how often the pair lists were made anew
   std::uint32_t pairs_dropped = 0;  ///< entries that found no room: contacts may have been missed
+  std::uint32_t held_back = 0;      ///< how often a particle's motion was cut, so that no layers met
+  /// The smallest distance [m] of two surfaces that share no particle, in the latest frame; nothing when all
+  /// were farther apart than the lists reach.
+  std::optional<double> smallest_gap_m;
 };
 
 class Simulation {
@@ -50,7 +55,11 @@ class Simulation {
 
 /// The report in the words of collision_state.
 inline SelfCollisionReport report_of(std::span<const std::uint32_t> collision_state) {
-  return {collision_state[shared::kListsBuilt], collision_state[shared::kPairsDropped]};
+  SelfCollisionReport report{collision_state[shared::kListsBuilt], collision_state[shared::kPairsDropped],
+                             collision_state[shared::kHeldBack], std::nullopt};
+  const std::uint32_t gap = collision_state[shared::kSmallestGap];
+  if (gap < shared::kInfinity) report.smallest_gap_m = std::bit_cast<float>(gap);
+  return report;
 }
 
 /// The CPU reference in float ("f32", and "f32k" with compensated positions) or double ("f64").

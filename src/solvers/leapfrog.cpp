@@ -7,14 +7,18 @@ namespace weft {
 namespace {
 
 constexpr auto kSteps = joined_steps(
-    std::array{SolverStep{&pin_release, Block::substep}, SolverStep{&pair_check, Block::substep},
-               SolverStep{&cell_count, Block::substep}, SolverStep{&cell_scan, Block::substep},
-               SolverStep{&cell_fill, Block::substep}, SolverStep{&cell_sort, Block::substep},
-               SolverStep{&pair_gather, Block::substep}, SolverStep{&touch_count, Block::substep},
+    std::array{SolverStep{&pin_release, Block::substep}, SolverStep{&carry, Block::substep},
+               SolverStep{&pair_check, Block::substep}, SolverStep{&cell_count, Block::substep},
+               SolverStep{&cell_scan, Block::substep}, SolverStep{&cell_fill, Block::substep},
+               SolverStep{&cell_sort, Block::substep}, SolverStep{&pair_gather, Block::substep},
+               SolverStep{&surface_gather, Block::substep}, SolverStep{&touch_weight, Block::substep},
+               SolverStep{&surface_touch, Block::substep}, SolverStep{&surface_contact, Block::substep},
                SolverStep{&self_contact, Block::substep}, SolverStep{&aerodynamics, Block::substep},
                SolverStep{&integrate, Block::substep}},
     kAfterDrift,
-    std::array{SolverStep{&tear, Block::substep}, SolverStep{&aerodynamics, Block::frame_end},
+    std::array{SolverStep{&tear, Block::substep}, SolverStep{&carry, Block::frame_end},
+               SolverStep{&pair_check, Block::frame_end},  // what the last drift did
+               SolverStep{&aerodynamics, Block::frame_end},
                SolverStep{&integrate, Block::frame_end},  // the closing half kick
                SolverStep{&normals, Block::frame_end}});
 

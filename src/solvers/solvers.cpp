@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "passes/collision.h"
 #include "solvers/list.h"
 
 namespace weft {
@@ -40,7 +41,7 @@ std::uint32_t substeps_per_frame(const Model& model, const Solver& solver) {
         "material.density)",
         model.scene.source.empty() ? "scene" : model.scene.source, step_s / kStepShare, section.frame_s,
         needed, kSubstepsMax);
-  return static_cast<std::uint32_t>(std::max(1.0, needed));
+  return std::max(static_cast<std::uint32_t>(std::max(1.0, needed)), contact_substeps(model));
 }
 
 }  // namespace weft

@@ -233,16 +233,19 @@ const char* const kSelfCollision =
 TEST(Plan, has_self_collision_s_passes_and_bytes_only_where_the_scene_asks) {
   const Plan with = plan_of(kSelfCollision),
              without = plan_of("[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n");
-  const std::vector<const Pass*> own = {&pair_check, &cell_count,  &cell_scan,   &cell_fill,
-                                        &cell_sort,  &pair_gather, &touch_count, &self_contact};
+  const std::vector<const Pass*> own = {&carry,        &pair_check,    &cell_count,      &cell_scan,
+                                        &cell_fill,    &cell_sort,     &pair_gather,     &surface_gather,
+                                        &touch_weight, &surface_touch, &surface_contact, &self_contact};
   for (const PlanStep& step : without.steps)
     EXPECT_EQ(std::ranges::count(own, step.pass), 0) << step.pass->name;
   for (const PlanBuffer& buffer : without.buffers)
-    EXPECT_TRUE(buffer.id <= BufferId::normal || buffer.id >= BufferId::watch_parts);
+    EXPECT_TRUE(buffer.id <= BufferId::normal ||
+                (buffer.id >= BufferId::watch_parts && buffer.id <= BufferId::kept_velocity));
   EXPECT_EQ(reason_for(without, "self-collision"), "the scene has no [self_collision]");
   EXPECT_EQ(reason_for(with, "self-collision"), "");
 
-  ASSERT_EQ(with.steps.size(), without.steps.size() + own.size());
+  ASSERT_EQ(with.steps.size(),
+            without.steps.size() + own.size() + 2);  // carry and pair_check at the frame's end
   for (std::size_t k = 0; k < own.size(); ++k) EXPECT_EQ(with.steps[k].pass, own[k]);
   std::uint64_t brought = 0;
   for (const PlanBuffer& buffer : with.buffers)

@@ -1,4 +1,5 @@
-// touch_count: how many pairs of each particle are nearer than their limit. Declaration and CPU mirror.
+// touch_weight: the pairs of each particle that are nearer than their limit, weighed. Declaration and CPU
+// mirror.
 #include <utility>
 
 #include "passes/collision.h"
@@ -10,35 +11,41 @@ namespace {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!contacts_due(buffers)) return;
   const CollisionView<T> view(context.model);
   const Grid& grid = context.model.grid;
   const auto& position = std::as_const(buffers)[BufferId::position];
   const auto& counts = buffers.words_of(BufferId::pair_count);
   const auto& places = buffers.words_of(BufferId::pair_places);
-  auto& touches = buffers.words_of(BufferId::touch_count);
+  auto& touches = buffers.words_of(BufferId::touch_weight);
   touches.resize(grid.count());
   parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       touches[p] = 0;
       for (std::size_t k = 0; k < counts[p]; ++k) {
         const std::uint32_t other = view.particle_at(places[k * position.size() + p]);
-        touches[p] += squared_distance(position[p], position[other]) < view.limit(p, other).squared ? 1u : 0u;
+        touches[p] += squared_distance(position[p], position[other]) < view.limit(p, other).squared
+                          ? touch_units(T(1))
+                          : 0u;
       }
     }
   });
-  auto& state = buffers.words_of(BufferId::collision_state);
-  state[shared::kListGroups] = state[shared::kScanGroups] = 0;
+  buffers[BufferId::near_position] = position;
+  buffers[BufferId::near_velocity] = std::as_const(buffers)[BufferId::velocity];
+  buffers.words_of(BufferId::surface_bound).assign(grid.count(), shared::kInfinity);
+  buffers.words_of(BufferId::surface_sums).assign(std::size_t{shared::kSumPlanes} * grid.count(), 0);
 }
 
 }  // namespace
 
-const Pass touch_count{
-    .name = "touch_count",
-    .about = "self-collision: pairs nearer than their limit",
+const Pass touch_weight{
+    .name = "touch_weight",
+    .about = "self-collision: weighs pairs nearer than their limit; keeps the state that contacts see",
     .domain = collision_domain,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .interval = contact_interval,
+    .groups_word = shared::kContactGroups,
 };
 
 }  // namespace weft

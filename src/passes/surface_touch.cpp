@@ -1,0 +1,41 @@
+// surface_touch: distances of listed surfaces, and how far their particles may move. Declaration and CPU
+// mirror.
+#include <bit>
+
+#include "passes/passes.h"
+#include "passes/surface.h"
+
+namespace weft {
+namespace {
+
+template <class T>
+void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!contacts_due(buffers)) return;
+  const CollisionView<T> view(context.model);
+  auto& bounds = buffers.words_of(BufferId::surface_bound);
+  auto& touches = buffers.words_of(BufferId::touch_weight);
+  std::uint32_t& gap = buffers.words_of(BufferId::collision_state)[shared::kSmallestGap];
+  for_each_surface_pair(view, buffers, [&](const SurfacePair<T>& pair) {
+    const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(std::sqrt(pair.squared)));
+    gap = std::min(gap, bits);
+    for (std::size_t m = 0; m < 4; ++m) {
+      const std::uint32_t p = pair.particle[m];
+      bounds[p] = std::min(bounds[p], bits);
+      if (pair.squared < view.surface_limit_squared) touches[p] += touch_units(std::abs(pair.weight[m]));
+    }
+  });
+}
+
+}  // namespace
+
+const Pass surface_touch{
+    .name = "surface_touch",
+    .about = "self-collision: distances of near triangles and edges",
+    .domain = collision_domain,
+    .mirror_f32 = mirror<float>,
+    .mirror_f64 = mirror<double>,
+    .interval = contact_interval,
+    .groups_word = shared::kContactGroups,
+};
+
+}  // namespace weft
