@@ -156,8 +156,9 @@ uint search_cell(Cells c, ivec3 cell, Own own, real3 x, real search, bool flat_h
     uint particle = other.y * c.nx + other.x;
     real3 y = position[particle].xyz;
     ivec2 off = abs(ivec2(other) - ivec2(own.i, own.j));
-    bool passed_over = place == own.place || (flat_here && off.x <= 1 && off.y <= 1 && same_cloth(other.y, own.j));
-    if (passed_over || !(squared_between(x, y) < search) || cell_of(c, y, particle) != cell) continue;
+    bool beside = off.x <= 1 && off.y <= 1 && same_cloth(other.y, own.j);
+    if (place == own.place || (flat_here && beside)) continue;
+    if (!(squared_between(x, y) < search) || cell_of(c, y, particle) != cell) continue;
     if (seen >= done && seen - done < kWaitingMax) waiting[seen - done] = place;
     ++seen;
   }

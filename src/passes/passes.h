@@ -50,7 +50,7 @@ extern const Pass cell_fill;        ///< particles into the buckets
 extern const Pass cell_sort;        ///< in ascending order
 extern const Pass pair_gather;      ///< lists of pairs within limit and skin
 extern const Pass surface_gather;   ///< lists of near triangles and edges
-extern const Pass touch_weight;      ///< pairs nearer than their limit
+extern const Pass touch_weight;     ///< pairs nearer than their limit
 extern const Pass surface_touch;    ///< distances of near triangles and edges
 extern const Pass surface_contact;  ///< what those that touch give their particles
 extern const Pass self_contact;     ///< pushes them apart
