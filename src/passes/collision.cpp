@@ -129,7 +129,7 @@ CollisionLayout collision_layout(const Model& model) {
 }
 
 double look_time_s(const Model& model, const CollisionLayout& layout) {
-  const double room_m = std::min(layout.roam_max_m - layout.stale_m, 0.8 * layout.surface_limit_m);
+  const double room_m = std::min(layout.roam_max_m - layout.stale_m, 0.4 * layout.surface_limit_m);
   return std::min(room_m / design_speed_m_s(model), pile_time_s(model, layout));
 }
 

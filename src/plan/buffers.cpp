@@ -59,11 +59,11 @@ namespace {
 
 std::span<const BufferId> collision_buffers_of(const Pass& pass) {
   using enum BufferId;
-  static constexpr std::array kCarry = {params,        position,  velocity, built_position,
-                                        near_position, collision, carrier};
-  static constexpr std::array kPairCheck = {params,          position,       velocity,      collision,
-                                            collision_state, built_position, near_position, surface_bound,
-                                            carrier,         cells};
+  static constexpr std::array kCarry = {params,         position,      velocity, collision,
+                                        built_position, near_position, carrier};
+  static constexpr std::array kPairCheck = {params,          position,       velocity, collision,
+                                            collision_state, built_position, cells,    near_position,
+                                            surface_bound,   carrier};
   static constexpr std::array kCellCount = {params,          position,       collision,
                                             collision_state, built_position, cells};
   static constexpr std::array kCellScan = {params, collision, collision_state, cells};
@@ -76,16 +76,16 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
   static constexpr std::array kSurfaceGather = {params,          position,      collision,
                                                 collision_state, cells,         cell_members,
                                                 surface_count,   surface_pairs, surface_bound};
-  static constexpr std::array kTouchCount = {params,       position,      velocity,     collision,
-                                             pair_count,   pair_places,   touch_weight, surface_bound,
-                                             surface_sums, near_position, near_velocity};
-  static constexpr std::array kSurfaceTouch = {params,        collision,     collision_state, near_position,
-                                               surface_count, surface_pairs, surface_bound,   touch_weight};
-  static constexpr std::array kSurfaceContact = {params,        collision,     near_position, near_velocity,
-                                                 surface_count, surface_pairs, touch_weight,  surface_sums};
-  static constexpr std::array kSelfContact = {params,        velocity,      collision,  collision_state,
-                                              near_position, near_velocity, pair_count, pair_places,
-                                              touch_weight,  surface_sums};
+  static constexpr std::array kTouchCount = {params,        position,      velocity,     collision,
+                                             pair_count,    pair_places,   touch_weight, near_position,
+                                             near_velocity, surface_bound, surface_sums};
+  static constexpr std::array kSurfaceTouch = {params,        collision,     collision_state, touch_weight,
+                                               near_position, surface_count, surface_pairs,   surface_bound};
+  static constexpr std::array kSurfaceContact = {params,        collision,     touch_weight,  near_position,
+                                                 near_velocity, surface_count, surface_pairs, surface_sums};
+  static constexpr std::array kSelfContact = {params,        velocity,    collision,    collision_state,
+                                              pair_count,    pair_places, touch_weight, near_position,
+                                              near_velocity, surface_sums};
   if (&pass == &carry) return kCarry;
   if (&pass == &pair_check) return kPairCheck;
   if (&pass == &cell_count) return kCellCount;

@@ -88,18 +88,24 @@ TEST(SelfCollision, leaves_an_isolated_flat_cloth_alone_to_the_bit) {
 // Two halves at 0.4 m/s against each other, held by nothing else: what one gains the other loses. Slow enough
 // for nothing to be held back, which alone does not keep momentum.
 TEST(SelfCollision, keeps_momentum_and_the_centre_of_mass_in_free_flight) {
-  const Model model = sheet(kThickness);
-  State start = folded(model, 0.03);
+  Scene limp = sheet(kThickness).scene;
+  limp.material.flex = 0.0;  // what springs over two cells hold would throw the fold open
+  const Model model = build_model(limp);
+  State start = folded(model, 0.745 * model.grid.spacing_m);  // no edge of the fold is stretched
   for (std::size_t p = 0; p < start.position.size(); ++p)
     start.velocity[p] = {0.3, start.position[p].y > 0.02 ? -0.4 : 0.0, 0.1};
   for (const auto& [precision, tolerance] : {std::pair{"f64", 1e-14}, {"f32", 2e-6}}) {
     const auto simulation = make_cpu_simulation(model, find_solver("leapfrog"), precision);
     simulation->write(start);
     const glm::dvec3 before = linear_momentum(model, start);
-    run(*simulation, 12);
+    double closest = 1e300;
+    for (int frame = 0; frame < 12; ++frame) {
+      run(*simulation, 1);
+      closest = std::min(closest, closest_pair(model, simulation->read()).ratio);
+    }
     const State end = simulation->read();
     EXPECT_LE(glm::distance(linear_momentum(model, end), before), tolerance * glm::length(before) * 10);
-    EXPECT_LT(closest_pair(model, end).ratio, 1.001);  // they met
+    EXPECT_LT(closest, 1.001);  // they met
     EXPECT_EQ(simulation->self_collision()->held_back, 0u);
   }
 }

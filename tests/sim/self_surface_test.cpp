@@ -7,7 +7,6 @@
 
 #include "model/measures.h"
 #include "passes/collision.h"
-#include "scenes.h"
 #include "sim/simulation.h"
 #include "solvers/solver.h"
 #include "support/crossings.h"
@@ -69,11 +68,6 @@ TEST(SelfSurface, keeps_layers_pressed_between_sphere_and_floor_from_crossing) {
                                                    "{{ time = 0.4, center = [-0.2, {0}, 0] }} ]\n",
                                                    deep_m)),
                           24));
-}
-
-TEST(SelfSurface, keeps_the_cloth_on_the_sphere_of_scene_5_from_crossing) {
-  const Model model = scene_model("5", {.set = {"cloth.resolution=20", "self_collision.thickness=0.01"}});
-  expect_apart(run_layers({model, start_state(model)}, 60));
 }
 
 // At the design speed a particle moves by at most half the distance that surfaces keep, in one substep; where
