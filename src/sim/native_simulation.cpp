@@ -99,7 +99,8 @@ class NativeSimulation final : public CpuSimulation<float> {
     need_buffers();
     const RowThreadsInUse threads(engine_.threads_for_mirrors());
     run_step(step, substep);
-    if (step.block == Block::substep || step.pass->swaps_state) rows_current_ = false;
+    const bool moves = step.block == Block::substep || step.pass->swaps_state || step.pass == &pair_check;
+    if (moves) rows_current_ = false;  // what else ends a frame only looks at it
   }
 
   void model_changed() override {
