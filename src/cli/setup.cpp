@@ -24,15 +24,12 @@ void require_device_solver(const Options& o, const Scene& scene, const Solver& s
 Options settled_device(const Options& asked, const Setup& setup) {
   Options o = with_default_device(asked);
   if (!o.on_native()) return o;
-  const bool by_default = asked.device.empty();
   const std::string lacks = native_lacks(setup.model, *setup.solver, setup.scene().solver.precision);
-  if (lacks.empty() && by_default)
+  if (!lacks.empty())
+    note(o, fmt::format("{}, so that the CPU reference runs this", lacks));
+  else if (asked.device.empty())
     note(o,
          "no GPU is used: the best Vulkan device is a software one, and native computes on the CPU itself");
-  if (lacks.empty()) return o;
-  note(o, fmt::format("{}, so that the {} runs this", lacks,
-                      by_default ? "software Vulkan device" : "CPU reference"));
-  if (by_default) o.device.clear();
   return o;
 }
 

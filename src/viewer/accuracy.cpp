@@ -19,7 +19,7 @@ void Accuracy::follow(RunningScene& running) {
 
 void Accuracy::find_study(const RunningScene& running) {
   if (!look_again_ && running.shown_version() == shown_version_) return;
-  label_ = running.study_bench().label;
+  label_ = running.bench().label;
   shown_version_ = running.shown_version();
   const std::string folder = study::kept_folder(running.scene(), label_).string();
   if (!look_again_ && folder == folder_) return;  // only the setting changed
@@ -53,7 +53,7 @@ void Accuracy::start_study(RunningScene& running) {
   failure_.clear();
   resume_ = !running.paused();
   running.set_paused(true);
-  const study::Bench bench = running.study_bench();
+  const study::Bench bench = running.bench();
   const std::string uuid = bench.device != nullptr ? bench.device->info().uuid : "";
   run_ = std::make_unique<StudyRun>(uuid, bench.native, running.scene(), kStudyTime_s);
 }

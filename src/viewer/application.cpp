@@ -65,7 +65,7 @@ ComputeOn compute_on(const ViewerOptions& options, const gpu::Device& device) {
   const bool speaks_of_vulkan = !options.device.empty() || !options.kernel.empty() ||
                                 !options.shader_dir.empty() || options.validation || options.force_staging ||
                                 std::getenv("WEFT_KERNEL") != nullptr;
-  return speaks_of_vulkan || !device.info().software ? ComputeOn::device : ComputeOn::native_or_device;
+  return speaks_of_vulkan || !device.info().software ? ComputeOn::device : ComputeOn::native;
 }
 
 float content_scale(const Window& window) {

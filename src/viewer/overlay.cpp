@@ -30,9 +30,7 @@ void device_lines(const RunningScene& running, const PanelFacts& facts) {
   const bool native = running.on_gpu() == nullptr;
   if (native) line(running.computed_by());
   line(native ? "drawn by " + facts.device : facts.device);
-  if (!running.why_not_native().empty())
-    line(kWarning,
-         fmt::format("{}: {}", native ? "the reference runs" : "not on native", running.why_not_native()));
+  if (!running.why_not_native().empty()) line(kWarning, "the reference runs: " + running.why_not_native());
   if (facts.software) line(kWarning, native ? "no GPU is used" : "software device: no GPU is used");
 }
 

@@ -159,7 +159,6 @@ std::unique_ptr<DrawnSimulation> RunningScene::made(const Model& model) {
   if (compute_on_ == ComputeOn::device) return made_on_device(model);
   const Solver& solver = find_solver(model.scene.solver.name);
   native_lacks_ = native_lacks(model, solver, model.scene.solver.precision);
-  if (!native_lacks_.empty() && compute_on_ == ComputeOn::native_or_device) return made_on_device(model);
   return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
 }
 
@@ -176,8 +175,8 @@ std::unique_ptr<DrawnSimulation> RunningScene::copy_of(const Model& model,
   return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
 }
 
-study::Bench RunningScene::bench_of(bool on_device) const {
-  if (!on_device) return study::Bench::without_device(true);
+study::Bench RunningScene::bench() const {
+  if (compute_on_ == ComputeOn::native) return study::Bench::without_device(true);
   return {.device = &device_, .label = device_.info().label(), .pipelines = pipelines_};
 }
 

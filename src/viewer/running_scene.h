@@ -19,9 +19,8 @@ namespace weft {
 
 /// Where a window's cloth is computed; a Vulkan device draws it in any case.
 enum class ComputeOn {
-  device,            ///< the device that draws
-  native_or_device,  ///< the CPU's vector units; what they lack on the device
-  native,            ///< the CPU's vector units; what they lack on the reference
+  device,  ///< the device that draws
+  native,  ///< the CPU's vector units; what they lack on the reference
 };
 
 /// Numbers about the run that the overlay shows.
@@ -104,11 +103,8 @@ class RunningScene {
   void release();
 
   const Scene& scene() const { return scene_; }
-  /// Where copies of the running cloth are computed as it is.
-  study::Bench bench() const { return bench_of(on_gpu_ != nullptr); }
-  /// What a study of this scene is measured on: what computes it as long as that runs the setting, so that
-  /// choosing one that it leaves to another keeps the study that it was chosen from.
-  study::Bench study_bench() const { return bench_of(compute_on_ == ComputeOn::device); }
+  /// Where copies of the running cloth, or studies of it, are computed as it is.
+  study::Bench bench() const;
   /// The simulation when the device computes it, with its kernel; else null.
   const GpuSimulation* on_gpu() const { return on_gpu_; }
   /// Another simulation of the same kind as the running one.
@@ -146,7 +142,6 @@ class RunningScene {
   void adopt(const Scene& next, bool keep_state, bool anew = false);
   /// On the device or on the host, as native_lacks_ was found for this model.
   std::unique_ptr<DrawnSimulation> made(const Model& model);
-  study::Bench bench_of(bool on_device) const;
   std::unique_ptr<GpuSimulation> made_on_device(const Model& model) const;
   void take(std::unique_ptr<DrawnSimulation> next);
   void begin_again();

@@ -23,30 +23,28 @@ class NativeSceneTest : public test::GpuTest {
   }
 };
 
-// docs/viewer.md: native where it can; by default the device takes what it lacks, with --device native the
-// reference; the state goes along, and the window says which it is.
-TEST_F(NativeSceneTest, WhatNativeLacksIsComputedElsewhereAndSaid) {
-  for (const ComputeOn compute_on : {ComputeOn::native_or_device, ComputeOn::native}) {
-    RunningScene running(device(), {{"cloth.resolution=24"}}, "1", {}, compute_on);
-    EXPECT_EQ(running.on_gpu(), nullptr);
-    EXPECT_EQ(running.why_not_native(), "");
-    EXPECT_EQ(running.computed_by().substr(0, 6), "native");
-    frames(running, 2);
-    const State before = running.simulation().read();
-    Scene other = running.scene();
-    other.solver.name = "rk4";
-    running.apply(other);
-    EXPECT_NE(running.why_not_native(), "");
-    EXPECT_EQ(running.on_gpu() != nullptr, compute_on == ComputeOn::native_or_device);
-    EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
-    frames(running, 1);
-    EXPECT_TRUE(all_finite(running.simulation().read()));
-    other.solver.name = "leapfrog";
-    running.apply(other);
-    EXPECT_EQ(running.on_gpu(), nullptr);
-    EXPECT_EQ(running.why_not_native(), "");
-    EXPECT_THROW(running.set_kernel("texel"), Error) << "native has no kernels to choose from";
-  }
+// docs/viewer.md: native where it can, the reference for what it lacks; the state goes along, and the window
+// says which it is.
+TEST_F(NativeSceneTest, WhatNativeLacksTheReferenceComputesAndSaysSo) {
+  RunningScene running(device(), {{"cloth.resolution=24"}}, "1", {}, ComputeOn::native);
+  EXPECT_EQ(running.on_gpu(), nullptr);
+  EXPECT_EQ(running.why_not_native(), "");
+  EXPECT_EQ(running.computed_by().substr(0, 6), "native");
+  frames(running, 2);
+  const State before = running.simulation().read();
+  Scene other = running.scene();
+  other.solver.name = "rk4";
+  running.apply(other);
+  EXPECT_NE(running.why_not_native(), "");
+  EXPECT_EQ(running.computed_by(), "CPU reference (f32)");
+  EXPECT_EQ(state_hash(running.simulation().read()), state_hash(before));
+  frames(running, 1);
+  EXPECT_TRUE(all_finite(running.simulation().read()));
+  other.solver.name = "leapfrog";
+  running.apply(other);
+  EXPECT_EQ(running.on_gpu(), nullptr);
+  EXPECT_EQ(running.why_not_native(), "");
+  EXPECT_THROW(running.set_kernel("texel"), Error) << "native has no kernels to choose from";
 }
 
 // A thread computes while the window looks: whatever is asked in the middle of a frame changes no bit.

@@ -41,11 +41,10 @@ class RunningSceneAnywhere : public RunningSceneTest, public testing::WithParamI
   }
 };
 std::string compute_on_name(const testing::TestParamInfo<ComputeOn>& tested) {
-  constexpr std::array<const char*, 3> kNames{"Device", "NativeOrDevice", "Native"};
+  constexpr std::array<const char*, 2> kNames{"Device", "Native"};
   return kNames[static_cast<std::size_t>(tested.param)];
 }
-INSTANTIATE_TEST_SUITE_P(On, RunningSceneAnywhere,
-                         testing::Values(ComputeOn::device, ComputeOn::native_or_device, ComputeOn::native),
+INSTANTIATE_TEST_SUITE_P(On, RunningSceneAnywhere, testing::Values(ComputeOn::device, ComputeOn::native),
                          compute_on_name);
 
 TEST_F(RunningSceneTest, AFrameInPartsHasTheSameBits) {
