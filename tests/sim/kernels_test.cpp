@@ -94,8 +94,8 @@ TEST_F(KernelsTest, equal_the_direct_one_on_odd_shapes) {
 }
 
 TEST_F(KernelsTest, equal_the_direct_one_without_shear_flex_bending_or_damping) {
-  for (const char* material : {"shear = 0.0", "flex = 0.0", "flex = 0.0\nbend = 1e-5", "damping = 0.0",
-                               "shear = 0.0\nflex = 0.0\ndamping = 0.0"}) {
+  for (const char* material :
+       {"shear = 0.0", "flex = 0.0\nbend = 1e-5", "shear = 0.0\nflex = 0.0\ndamping = 0.0"}) {
     const Model model = build_model(
         parse_scene(fmt::format("[cloth]\nresolution = 21\nimperfection = 0.02\n[material]\n{}\n[gravity]\n"
                                 "[solver]\nsubsteps = 200\n",

@@ -106,7 +106,7 @@ class Page {
         c.name, sentence(c.about), c.scene, settings(c), c.time_s);
     std::string refusing;
     for (const Solver* solver : solvers()) {
-      if (what_solver_lacks(hard_model(c), *solver).empty())
+      if (what_solver_lacks(c, *solver).empty())
         text += rows(c, *solver);
       else
         refusing += fmt::format("{}{}", refusing.empty() ? "" : ", ", solver->name);

@@ -125,6 +125,13 @@ Model hard_model(const HardCase& c, std::span<const std::string> more) {
   return with_mass_scale(model, scale);
 }
 
+std::string what_solver_lacks(const HardCase& c, const Solver& solver) {
+  const Model model = hard_model(c);
+  const std::string at_start = what_solver_lacks(model, solver);
+  if (!at_start.empty() || c.hand != Hand::sweeps_effect) return at_start;
+  return what_solver_lacks(build_model(with_swept_effect(model.scene, c.effect, 1)), solver);
+}
+
 State hard_start(const HardCase& c, const Model& model) {
   State state = start_state(model);
   const glm::dvec3 center = model.scene.cloth.center_m;

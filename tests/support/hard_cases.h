@@ -65,6 +65,8 @@ using MakeSimulation = std::function<std::unique_ptr<Simulation>(const Model&, c
 
 Model hard_model(const HardCase&, std::span<const std::string> more = {});
 State hard_start(const HardCase&, const Model&);
+/// What the solver has no passes for at the case's start or once its sliders move; empty when it can run it.
+std::string what_solver_lacks(const HardCase&, const Solver&);
 Outcome run_hard_case(const HardCase&, const Solver&, const MakeSimulation&);
 
 }  // namespace weft::hard
