@@ -39,7 +39,8 @@ Point point_from_json(const nlohmann::ordered_json& json);
 std::string points_csv(const std::vector<Point>& points);
 
 /// The points that no other of the same cloth beats in both cost and error, by rising cost (and so by falling
-/// error). Diverged points are never on it; of equal ones the first stays.
+/// error). Diverged points are never on it, nor is a run without any error, which is the reference again; of
+/// equal ones the first stays.
 /// @param cost  what counts as cost
 std::vector<const Point*> pareto_front(const std::vector<Point>& points, double (*cost)(const Point&));
 

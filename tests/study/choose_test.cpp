@@ -33,6 +33,18 @@ TEST(Front, HoldsExactlyWhatNothingBeats) {
   }
 }
 
+// Where halving the reference's step helps no more, one of the runs may be the reference itself.
+TEST(Front, LeavesOutWhatIsTheReferenceItself) {
+  std::vector<Point> points(2);
+  points[0].error_m = 1e-3;
+  points[0].ms_per_s = 1.0;
+  points[1].error_m = 0.0;
+  points[1].ms_per_s = 2.0;
+  const std::vector<const Point*> front = pareto_front(points, time_cost);
+  ASSERT_EQ(front.size(), 1u);
+  EXPECT_EQ(front[0], &points[0]);
+}
+
 TEST(Choosing, ACoarserWishNeverCostsMore) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 500; ++round) {
