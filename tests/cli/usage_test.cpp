@@ -181,7 +181,7 @@ TEST(Usage, AnUnknownDeviceIsExitThreeAndNamesThoseThereAre) {
 TEST(Usage, DoubleOnADeviceWithoutItIsExitThreeAndSaysWhichDevicesHaveIt) {
   NEEDS_VULKAN();
   for (const char* command : {"simulate", "bench", "validate"})
-    expect_refused({command, "1", "--resolution", "8", "--precision", "f64", "-q"},
+    expect_refused({command, "1", "--resolution", "8", "--precision", "f64", "--device", "0", "-q"},
                    {"f64", "no device here has it", "--device cpu"}, 3, {{"WEFT_WITHOUT_FLOAT64", "1"}});
 }
 
