@@ -26,14 +26,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass cell_count{
-    .name = "cell_count",
-    .about = "self-collision: particles in each bucket of the grid",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kListGroups,
-};
+const Pass cell_count = collision_pass("cell_count", "self-collision: particles in each bucket of the grid",
+                                       mirror<float>, mirror<double>, shared::kListGroups);
 
 }  // namespace weft

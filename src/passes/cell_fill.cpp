@@ -30,15 +30,8 @@ void settle_order(HostWords& buffers) {
 
 }  // namespace
 
-const Pass cell_fill{
-    .name = "cell_fill",
-    .about = "self-collision: particles into their buckets, as they come",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kListGroups,
-    .settle_order = settle_order,
-};
+const Pass cell_fill =
+    collision_pass("cell_fill", "self-collision: particles into their buckets, as they come", mirror<float>,
+                   mirror<double>, shared::kListGroups, settle_order);
 
 }  // namespace weft

@@ -17,14 +17,7 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass cell_sort{
-    .name = "cell_sort",
-    .about = "self-collision: makes the fill stable",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kListGroups,
-};
+const Pass cell_sort = collision_pass("cell_sort", "self-collision: makes the fill stable", mirror<float>,
+                                      mirror<double>, shared::kListGroups);
 
 }  // namespace weft

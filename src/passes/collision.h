@@ -62,6 +62,23 @@ shared::CollisionOf<T> make_collision(const Model& model);
 /// Whole cloth, or nothing when the scene has no [self_collision].
 Range collision_domain(const Model& model);
 
+/// A pass over all particles that takes its workgroups from a word of collision_state: none where there is
+/// nothing to do.
+/// @param settle_order  as Pass::settle_order
+constexpr Pass collision_pass(std::string_view name, std::string_view about,
+                              decltype(Pass::mirror_f32) mirror_f32, decltype(Pass::mirror_f64) mirror_f64,
+                              std::uint32_t groups_word,
+                              decltype(Pass::settle_order) settle_order = nullptr) {
+  return {.name = name,
+          .about = about,
+          .domain = collision_domain,
+          .mirror_f32 = mirror_f32,
+          .mirror_f64 = mirror_f64,
+          .interval = contact_interval,
+          .groups_word = groups_word,
+          .settle_order = settle_order};
+}
+
 /// A pair's limit as the passes read it.
 template <class T>
 struct PairLimit {

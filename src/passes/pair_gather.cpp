@@ -58,14 +58,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass pair_gather{
-    .name = "pair_gather",
-    .about = "self-collision: lists of the pairs within limit and skin",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kListGroups,
-};
+const Pass pair_gather =
+    collision_pass("pair_gather", "self-collision: lists of the pairs within limit and skin", mirror<float>,
+                   mirror<double>, shared::kListGroups);
 
 }  // namespace weft

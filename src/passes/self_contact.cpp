@@ -95,14 +95,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass self_contact{
-    .name = "self_contact",
-    .about = "self-collision: gives particles what their contacts do to them",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kContactGroups,
-};
+const Pass self_contact =
+    collision_pass("self_contact", "self-collision: gives particles what their contacts do to them",
+                   mirror<float>, mirror<double>, shared::kContactGroups);
 
 }  // namespace weft

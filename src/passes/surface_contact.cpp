@@ -101,14 +101,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass surface_contact{
-    .name = "surface_contact",
-    .about = "self-collision: pushes near triangles and edges apart",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kContactGroups,
-};
+const Pass surface_contact =
+    collision_pass("surface_contact", "self-collision: pushes near triangles and edges apart", mirror<float>,
+                   mirror<double>, shared::kContactGroups);
 
 }  // namespace weft

@@ -170,14 +170,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass surface_gather{
-    .name = "surface_gather",
-    .about = "self-collision: lists of near triangles and edges",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kListGroups,
-};
+const Pass surface_gather =
+    collision_pass("surface_gather", "self-collision: lists of near triangles and edges", mirror<float>,
+                   mirror<double>, shared::kListGroups);
 
 }  // namespace weft

@@ -28,14 +28,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass surface_touch{
-    .name = "surface_touch",
-    .about = "self-collision: distances of near triangles and edges",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kContactGroups,
-};
+const Pass surface_touch =
+    collision_pass("surface_touch", "self-collision: distances of near triangles and edges", mirror<float>,
+                   mirror<double>, shared::kContactGroups);
 
 }  // namespace weft

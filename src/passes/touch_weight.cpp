@@ -38,14 +38,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass touch_weight{
-    .name = "touch_weight",
-    .about = "self-collision: weighs pairs nearer than their limit; keeps the state that contacts see",
-    .domain = collision_domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kContactGroups,
-};
+const Pass touch_weight = collision_pass(
+    "touch_weight", "self-collision: weighs pairs nearer than their limit; keeps the state that contacts see",
+    mirror<float>, mirror<double>, shared::kContactGroups);
 
 }  // namespace weft
