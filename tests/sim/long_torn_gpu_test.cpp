@@ -25,22 +25,7 @@ TEST_F(LongTornGpu, warp_and_weft_equal_their_mirrors) {
 TEST_F(LongTornGpu, pins_that_let_go_equal_their_mirrors) {
   for (const Solver* solver : solvers()) {
     const bool fails = solver->name == "euler";
-    const Model model = full_model(std::string(R"(
-[[spheres]]
-center = [-0.2, 0.9, 0.5]
-radius = 0.15
-velocity = [0.3, 0.1, 0.0]
-[[pins]]
-at = [1.0, 0.0]
-radius = 0.1
-attach = "spheres.0"
-release = 0.004
-[[pins]]
-at = [0.5, 1.0]
-radius = 0.1
-release = 0.0
-[solver]
-)") + (fails ? "substeps = 2000\n" : ""));
+    const Model model = full_model(kPinsThatLetGo + "[solver]\n" + (fails ? "substeps = 2000\n" : ""));
     EXPECT_GT(rows_of(model, solver->name.data(), "pin_release"), 0u) << solver->name;
   }
 }

@@ -14,21 +14,7 @@ namespace {
 class TornGpuTest : public ValidatedPassTest {};
 
 TEST_F(TornGpuTest, pins_that_let_go_equal_their_mirrors) {
-  const Model model = full_model(R"(
-[[spheres]]
-center = [-0.2, 0.9, 0.5]
-radius = 0.15
-velocity = [0.3, 0.1, 0.0]
-[[pins]]
-at = [1.0, 0.0]
-radius = 0.1
-attach = "spheres.0"
-release = 0.004
-[[pins]]
-at = [0.5, 1.0]
-radius = 0.1
-release = 0.0
-)");
+  const Model model = full_model(kPinsThatLetGo);
   EXPECT_GT(rows_of(model, "leapfrog", "pin_release"), 0u);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <string_view>
 
 #include "gpu_fixture.h"
@@ -25,5 +26,22 @@ class ValidatedPassTest : public GpuTest {
     return count;
   }
 };
+
+/// A pin on a sphere that flies, let go in the first frame, and one that holds nothing from the start.
+inline const std::string kPinsThatLetGo = R"(
+[[spheres]]
+center = [-0.2, 0.9, 0.5]
+radius = 0.15
+velocity = [0.3, 0.1, 0.0]
+[[pins]]
+at = [1.0, 0.0]
+radius = 0.1
+attach = "spheres.0"
+release = 0.004
+[[pins]]
+at = [0.5, 1.0]
+radius = 0.1
+release = 0.0
+)";
 
 }  // namespace weft::test
