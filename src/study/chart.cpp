@@ -54,6 +54,7 @@ class Diagram {
         x_(kLeft, kRight),
         y_(kBottom, kTop) {
     for (const Point& point : points_) {
+      if (is_reference(point)) continue;
       x_.include(cost_(point));
       if (!point.diverged) y_.include(point.error_m);
     }
@@ -190,11 +191,12 @@ class Diagram {
   void draw_series(const Series& series) {
     std::vector<PicturePoint> line;
     for (const Point& point : series.points)
-      if (!point.diverged) line.push_back(place(point));
+      if (!point.diverged && !is_reference(point)) line.push_back(place(point));
     if (line.size() > 1)
       svg_.path(line, false,
                 {.stroke = solver_color(series.solver), .width = 2.0, .dash = dash_of(series.precision)});
     for (const Point& point : series.points) {
+      if (is_reference(point)) continue;
       const double x = x_.at(cost_(point));
       if (!point.diverged) {
         draw_marker(svg_, series.solver, x, y_.at(point.error_m), series.precision == "f64");

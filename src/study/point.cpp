@@ -89,7 +89,7 @@ std::string points_csv(const std::vector<Point>& points) {
 std::vector<const Point*> pareto_front(const std::vector<Point>& points, double (*cost)(const Point&)) {
   std::vector<const Point*> sorted;
   for (const Point& point : points)
-    if (!point.diverged && point.error_m > 0.0) sorted.push_back(&point);
+    if (!point.diverged && !is_reference(point)) sorted.push_back(&point);
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Point* a, const Point* b) {
     return cost(*a) != cost(*b) ? cost(*a) < cost(*b) : a->error_m < b->error_m;
   });

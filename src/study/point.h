@@ -38,9 +38,11 @@ Point point_from_json(const nlohmann::ordered_json& json);
 /// Header and one row a point, RFC 4180; numbers in their shortest exact form, absent ones empty.
 std::string points_csv(const std::vector<Point>& points);
 
+/// Whether the run is the reference itself: where halving its step helps no more, one of the sweep's may be.
+inline bool is_reference(const Point& point) { return !point.diverged && !(point.error_m > 0.0); }
+
 /// The points that no other of the same cloth beats in both cost and error, by rising cost (and so by falling
-/// error). Diverged points are never on it, nor is a run without any error, which is the reference again; of
-/// equal ones the first stays.
+/// error). Diverged points are never on it, nor is the reference itself; of equal ones the first stays.
 /// @param cost  what counts as cost
 std::vector<const Point*> pareto_front(const std::vector<Point>& points, double (*cost)(const Point&));
 

@@ -28,7 +28,8 @@ DiagramLayout::DiagramLayout(const study::Study& study, std::uint32_t nx, const 
   };
   for (const study::Series& series : study::series_of(points)) {
     PlotLine& line = lines_.emplace_back(PlotLine{series.solver, series.precision, {}});
-    for (const study::Point& point : series.points) line.marks.push_back({point, place(point)});
+    for (const study::Point& point : series.points)
+      if (!study::is_reference(point)) line.marks.push_back({point, place(point)});
   }
   for (const study::Point* point : study::pareto_front(points, study::time_cost))
     front_.push_back(place(*point));

@@ -87,6 +87,19 @@ TEST(Svg, NamesWhatItShowsAndStaysInsideItsFrame) {
             std::string::npos);
 }
 
+// A logarithm has no place for the reference's own error, 0.
+TEST(Svg, LeavesTheReferenceItselfOut) {
+  Study study = sample();
+  const auto without = occurrences(work_precision_svg(study, 9, CostAxis::device_time), "<path");
+  ASSERT_GT(without, 0u);
+  study.points.push_back(point_of(1000.0, 0.0));
+  study.points.back().setting = {"leapfrog", "f32", 80};
+  study.points.back().nx = study.points.back().ny = 9;
+  const std::string svg = work_precision_svg(study, 9, CostAxis::device_time);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_EQ(occurrences(svg, "<path"), without);
+}
+
 TEST(Svg, SurvivesAStudyInWhichNothingWentWell) {
   Study study = sample();
   for (Point& point : study.points) {
