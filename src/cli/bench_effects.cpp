@@ -19,7 +19,7 @@ nlohmann::ordered_json absent_percent(const EffectRow& row) {
 Table effect_table(const EffectBenchReport& report) {
   Table table{{"scene", "effect", "state", "ms_with", "ms_without", "cost_percent", "spread_percent",
                "absent_percent", "bytes_with", "bytes_without", "dispatches_with", "dispatches_without",
-               "substeps_with", "substeps_without", "toggle_ms"},
+               "substeps_with", "substeps_without", "toggle_ms", "kernel_with", "kernel_without"},
               {}};
   for (const EffectRow& row : report.rows) {
     if (!row.left_out.empty()) continue;
@@ -27,15 +27,15 @@ Table effect_table(const EffectBenchReport& report) {
                           row.with.frame_ms.median, row.without.frame_ms.median, 100 * row.cost,
                           100 * row.cost_spread, absent_percent(row), row.with.bytes, row.without.bytes,
                           row.with.dispatches, row.without.dispatches, row.with.automatic,
-                          row.without.automatic, row.toggle_ms});
+                          row.without.automatic, row.toggle_ms, row.with.kernel, row.without.kernel});
   }
   return table;
 }
 
 std::string describe(const EffectBenchReport& report, const std::string& device, std::uint32_t repetitions) {
-  std::string text = fmt::format("{} · {}x{} · {} · {} {} · median of {} frames each, by turns\n{}",
+  std::string text = fmt::format("{} · {}x{} · {} · {} {} · median of {} turns each, after {:.3g} s\n{}",
                                  report.scene, report.nx, report.ny, device, report.solver, report.precision,
-                                 repetitions, to_text(effect_table(report), Format::human));
+                                 repetitions, report.time_s, to_text(effect_table(report), Format::human));
   for (const EffectRow& row : report.rows)
     if (!row.left_out.empty()) text += fmt::format("{}: not measured, {}\n", row.effect, row.left_out);
   return text;
@@ -53,6 +53,8 @@ Exit run_effect_bench(const Options& o) {
   const std::unique_ptr<gpu::Device> device = open_device(o);
   EffectBenchOptions options;
   if (o.time_s) options.time_s = *o.time_s;
+  options.only = o.only_effects;
+  options.kernel = o.kernel;
   Table all;
   for (const Scene& scene : scenes) {
     const EffectBenchReport report = bench_effects(*device, scene, options, [&](const std::string& effect) {

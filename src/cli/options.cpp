@@ -187,6 +187,10 @@ void add_choice_options(CLI::App& app, Options& o) {
 void add_bench_options(CLI::App& app, Options& o) {
   add_scenes(app, o);
   app.add_flag("--effects", o.effects, "what each effect costs: the scene with it and without it, by turns");
+  add_text(app, "--only", "with --effects: these alone; default all of them", "NAME,NAME,...",
+           [&o](const std::string& text) {
+             o.only_effects = parse_list("--only", text, "--only capsules,boxes");
+           });
 }
 
 void add_study_options(CLI::App& app, Options& o) {

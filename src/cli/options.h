@@ -46,7 +46,8 @@ struct Options {
   Format format = Format::human;
   bool validation = false, force_staging = false, quiet = false, verbose = false, check = false;
   std::optional<std::filesystem::path> out;
-  bool effects = false;  ///< `bench` only: what each effect costs
+  bool effects = false;                   ///< `bench` only: what each effect costs
+  std::vector<std::string> only_effects;  ///< `bench --effects` only: of these; empty: of all
   PictureOptions picture;
   StudyOptions study;
   std::string command_line;  ///< as typed, for reports

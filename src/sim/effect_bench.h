@@ -13,12 +13,19 @@ namespace weft {
 
 struct EffectBenchOptions {
   double time_s = 0.5;            ///< simulated before anything is timed, so that contacts have begun
-  std::uint32_t repetitions = 9;  ///< frames of each of the two, after one that warms up
+  std::uint32_t repetitions = 9;  ///< turns of each of the two, after one that warms up
+  std::vector<std::string> only;  ///< names of effects; empty: all
+  /// What runs `integrate`, as GpuSimulationOptions::kernel; where it does not fit, what runs unasked.
+  std::string kernel;
+  /// Particle·substeps, above which a turn is the first substeps of a frame, and its milliseconds those of a
+  /// frame whose other substeps take as long; and above which less than time_s is simulated.
+  double turn_most = 1e7, warm_most = 2e8;
 };
 
 /// One side of a comparison.
 struct EffectSide {
   Sample frame_ms;               ///< of a frame, by the device's timestamps
+  std::string kernel;            ///< what runs `integrate`, and who decided
   std::uint64_t bytes = 0;       ///< allocated by the simulation
   std::uint64_t dispatches = 0;  ///< of a frame
   std::uint32_t automatic = 0;   ///< substeps a frame that the scene asks for by itself
@@ -39,13 +46,14 @@ struct EffectRow {
 };
 
 struct EffectBenchReport {
-  std::string device, scene, solver, precision, kernel;
+  std::string device, scene, solver, precision;
   std::uint32_t nx = 0, ny = 0;
+  double time_s = 0;  ///< what was simulated before
   std::vector<EffectRow> rows;
 };
 
 /// @param note  told which effect is timed
-/// @throws Error(Exit::no_device) when the device has no timestamps
+/// @throws Error(Exit::no_device) when the device has no timestamps; Error(Exit::usage) for an unknown effect
 EffectBenchReport bench_effects(gpu::Device&, const Scene&, const EffectBenchOptions&,
                                 const std::function<void(const std::string&)>& note);
 
