@@ -12,6 +12,12 @@ list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensa
 list(TRANSFORM double_sources APPEND "+WEFT_F64")
 list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
 
+# What tells whether the cloth comes near a body, and what then runs: in scenes with capsules, boxes or meshes.
+set(reach_sources ${shader_sources} ${double_sources})
+list(FILTER reach_sources INCLUDE REGEX
+  "/(integrate(_steal|_strip|_texel|_torn)?(_compensated)?|xpbd_finish|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
+list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
+
 # Kernels that lack an effect, one constant of effects.glsl each: what bench --effects holds against those that have
 # it switched off.
 set(lacking_sources "")
@@ -27,11 +33,11 @@ if(WEFT_BENCH_LACKING)
   endforeach()
 endif()
 
-foreach(variant ${shader_sources} ${double_sources} ${lacking_sources})
+foreach(variant ${shader_sources} ${double_sources} ${reach_sources} ${lacking_sources})
   string(REGEX REPLACE "\\+.*" "" source ${variant})
   set(define "")
   if(variant MATCHES "\\+(.*)$")
-    set(define -D${CMAKE_MATCH_1})
+    string(REPLACE "+" ";-D" define -D${CMAKE_MATCH_1})
   endif()
   file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/shaders ${variant})
   set(output ${spirv_dir}/${name}.spv)

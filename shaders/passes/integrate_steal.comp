@@ -34,6 +34,7 @@ void put(uint p, vec4 x, vec4 v) {
 
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
+#include "../shared/reach.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 #include "../shared/strip.glsl"
@@ -92,5 +93,6 @@ void main() {
       tile = --left == 0u ? kNone : take();
     } while (tile != kNone);
   }
+  tell_reach();
   end_queues();
 }

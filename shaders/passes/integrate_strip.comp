@@ -32,6 +32,7 @@ void put(uint p, vec4 x, vec4 v) {
 
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
+#include "../shared/reach.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 #include "../shared/strip.glsl"
@@ -43,4 +44,5 @@ void main() {
   if (first >= params.nx || begin >= params.ny) return;
   prepare_columns(first);
   march_strip(s, first, begin, min(begin + rows, params.ny));
+  tell_reach();
 }

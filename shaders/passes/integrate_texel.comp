@@ -24,6 +24,7 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
+#include "../shared/reach.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 

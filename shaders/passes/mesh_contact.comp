@@ -12,6 +12,10 @@ READS (uint, distance_grids)
 READS (real4, position_next)
 UPDATES(real4, position)
 UPDATES(real4, velocity)
+#ifdef WEFT_REACH
+#include "../shared/reach.h"
+UPDATES(uint, reach_groups)
+#endif
 
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };
@@ -184,6 +188,9 @@ void main() {
   uint i = gl_GlobalInvocationID.x, j = gl_GlobalInvocationID.y;
   if (i >= params.nx || j >= params.ny) return;
   uint p = j * params.nx + i, row = row_index * params.row_stride;
+#ifdef WEFT_REACH
+  if (p == 0u) reach_groups[kReachMeshes] = 0u;  // done: it asks for the next substep alone
+#endif
   real4 own = position[p];
   if (own.w == 0.0) return;
   real3 x0 = position_next[p].xyz, x1 = own.xyz, v = velocity[p].xyz;

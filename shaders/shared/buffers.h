@@ -50,6 +50,7 @@
   ROW(surface_pairs, 42, uint, "those lists: entry k of particle p at k * particles + p")              \
   ROW(surface_bound, 43, uint, "bits of the farthest a particle may go from near_position [m]")        \
   ROW(surface_sums, 44, uint, "pushes and kicks of surfaces, in whole quanta (collision.h)")           \
-  ROW(carrier, 45, real4, "motion that all of the cloth shares: three rows (collision.h)")
+  ROW(carrier, 45, real4, "motion that all of the cloth shares: three rows (collision.h)")             \
+  ROW(reach_groups, 46, uint, "workgroups of contact with bodies: none where none is near (reach.h)")
 
 #endif

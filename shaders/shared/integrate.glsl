@@ -17,6 +17,7 @@ layout(push_constant) uniform Push { uint row_index; };  // which row of the sub
 layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
 #include "force.glsl"
 #include "contact.glsl"
+#include "reach.glsl"
 #include "kick.glsl"
 #include "drift.glsl"
 
@@ -31,6 +32,7 @@ void move(Step s, Column c, inout March m) {
     v = kicked_at(m.p, s, v0, acceleration(s, F, w));
     x1 = drifted_at(m.p, s, x0, v);
     if ((spheres || floor_contact) && s.drift > 0.0) touched_at(m.p, s, x0, x1, v);
+    look_for_bodies(x0, x1);
   }
   position_next[m.p] = real4(x1, relative);
   velocity_next[m.p] = real4(v, 0.0);

@@ -16,6 +16,7 @@ layout(push_constant) uniform Push { uint row_index; };  // which row of the sub
 #include "effects.glsl"
 #include "force.glsl"
 #include "contact.glsl"
+#include "reach.glsl"
 #include "kick.glsl"
 #include "drift.glsl"
 
@@ -86,7 +87,9 @@ void main() {
     v = kicked_at(p, s, v, acceleration(s, whole_force(p, i, j), w));
     x1 = drifted_at(p, s, own.xyz, v);
     if ((spheres || floor_contact) && s.drift > 0.0) touched_at(p, s, own.xyz, x1, v);
+    look_for_bodies(own.xyz, x1);
   }
   position_next[p] = real4(x1, own.w);
   velocity_next[p] = real4(v, 0.0);
+  tell_reach();
 }

@@ -20,4 +20,7 @@ void main() {
     else
       step_down(c, m);
   }
+#ifdef WEFT_REACH
+  tell_reach();
+#endif
 }

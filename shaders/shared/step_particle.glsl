@@ -10,6 +10,9 @@ void step_particle(Step s, real3 F, real relative, inout real3 x, inout real3 v)
   precise real3 travelled = s.drift * v1;
   precise real3 x1 = x + travelled;
   if ((spheres || floor_contact) && s.drift > 0.0) contact(s.row, x, x1, v1);
+#ifdef WEFT_REACH
+  look_for_bodies(x, x1);
+#endif
   x = x1;
   v = v1;
 }

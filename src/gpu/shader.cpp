@@ -68,13 +68,17 @@ shaderc_shader_kind stage_of(const std::filesystem::path& file) {
 }
 
 std::vector<std::uint32_t> compile(std::string_view text, const std::filesystem::path& file,
-                                   std::string_view macro) {
+                                   std::string_view macros) {
   shaderc::CompileOptions options;
   options.SetTargetEnvironment(shaderc_target_env_vulkan, shaderc_env_version_vulkan_1_3);
   options.SetOptimizationLevel(shaderc_optimization_level_performance);
   options.SetWarningsAsErrors();
   options.SetIncluder(std::make_unique<Includer>());
-  if (!macro.empty()) options.AddMacroDefinition(std::string(macro));
+  while (!macros.empty()) {
+    const std::size_t plus = std::min(macros.find('+'), macros.size());
+    options.AddMacroDefinition(std::string(macros.substr(0, plus)));
+    macros.remove_prefix(std::min(plus + 1, macros.size()));
+  }
   const shaderc::Compiler compiler;
   const auto result =
       compiler.CompileGlslToSpv(text.data(), text.size(), stage_of(file), file.string().c_str(), options);
@@ -107,7 +111,7 @@ std::vector<std::uint32_t> load_spirv(std::string_view name) {
     dir = shader_dir().path;
   }
   if (!dir.empty()) {
-    const std::size_t plus = name.find('+');  // SOURCE+MACRO
+    const std::size_t plus = name.find('+');  // SOURCE+MACRO+…
     const std::filesystem::path file = dir / name.substr(0, plus);
     return compile(read_text(file), file, plus == name.npos ? "" : name.substr(plus + 1));
   }

@@ -8,6 +8,7 @@
 #include "model/distance_grid.h"
 #include "model/motion.h"
 #include "model/solids.h"
+#include "passes/reach.h"
 #include "shared/params.h"
 
 namespace weft {
@@ -169,7 +170,8 @@ RowLayout row_layout(const Model& model) {
   at.meshes = at.solids + shared::kRowSolidVec4s * solid_count(model);
   at.air = at.meshes + shared::kRowMeshVec4s * static_cast<std::uint32_t>(model.scene.meshes.size());
   at.floor = at.air + (model.scene.aerodynamics ? shared::kRowAirVec4s : 0);
-  at.stride = at.floor + (has_tilted_floor(model) ? shared::kRowFloorVec4s : 0);
+  at.reach = at.floor + (has_tilted_floor(model) ? shared::kRowFloorVec4s : 0);
+  at.stride = at.reach + (has_reach(model) ? shared::kRowReachVec4s : 0);
   return at;
 }
 

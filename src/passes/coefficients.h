@@ -72,7 +72,7 @@ struct AirRow {
 
 /// Where the parts of a row of the substep table begin, in real4s.
 struct RowLayout {
-  std::uint32_t pins, solids, meshes, air, floor, stride;
+  std::uint32_t pins, solids, meshes, air, floor, reach, stride;
 };
 RowLayout row_layout(const Model& model);
 

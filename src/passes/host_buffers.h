@@ -10,6 +10,7 @@
 #include "shared/buffers.h"
 #include "shared/collision.h"
 #include "shared/params.h"
+#include "shared/reach.h"
 #include "shared/watch.h"
 
 namespace weft {

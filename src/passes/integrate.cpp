@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/substep.h"
 
 namespace weft {
@@ -43,27 +44,35 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& velocity_next = buffers[BufferId::velocity_next];
   position_next.resize(context.model.grid.count());
   velocity_next.resize(context.model.grid.count());
+  ReachTeller<T> reach(context, buffers);
   Compensation<T, kCompensated> compensation(buffers, context.model.grid.count());
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
     Vec3<T> x1 = own.x, v = own.v;
     if (!own.pinned()) {
       kick_drift_touch(substep, compensation, p, substep.acceleration(force, own.w), own.x, x1, v);
+      reach.look(own.x, x1);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(v, T(0));
   });
 }
 
+constexpr Pass telling(Pass pass) {
+  pass.tells_reach = true;
+  return pass;
+}
+
 }  // namespace
 
-const Pass integrate =
+const Pass integrate = telling(
     spring_pass("integrate", "springs, damping, bending, air, gravity, contact: one kick and drift",
-                mirror<float, false>, mirror<double, false>, &integrate_compensated, &integrate_torn);
+                mirror<float, false>, mirror<double, false>, &integrate_compensated, &integrate_torn));
 
-const Pass integrate_compensated = spring_pass("integrate_compensated",
-                                               "springs, damping, bending, air, gravity, contact: one kick "
-                                               "and drift, positions summed with compensation",
-                                               mirror<float, true>, mirror<double, true>);
+const Pass integrate_compensated =
+    telling(spring_pass("integrate_compensated",
+                        "springs, damping, bending, air, gravity, contact: one kick "
+                        "and drift, positions summed with compensation",
+                        mirror<float, true>, mirror<double, true>));
 
 }  // namespace weft

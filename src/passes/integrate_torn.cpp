@@ -1,6 +1,7 @@
 // integrate_torn: one substep of a cloth whose links break, gathered particle by particle. Declaration and
 // CPU mirror. docs/float-form.md "Tearing": integrate's sum without what is broken.
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/tearing.h"
 
 namespace weft {
@@ -104,6 +105,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& velocity_next = buffers[BufferId::velocity_next];
   position_next.resize(grid.count());
   velocity_next.resize(grid.count());
+  ReachTeller<T> reach(context, buffers);
   Compensation<T, kCompensated> compensation(buffers, grid.count());
   const Gather<T> gather(context, buffers, substep);
   parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
@@ -113,6 +115,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       if (!own.pinned()) {
         const Vec3<T> force = gather.at(p % grid.nx, p / grid.nx);
         kick_drift_touch(substep, compensation, p, substep.acceleration(force, own.w), own.x, x1, v);
+        reach.look(own.x, x1);
       }
       position_next[p] = glm::vec<4, T>(x1, own.relative);
       velocity_next[p] = glm::vec<4, T>(v, T(0));
@@ -132,6 +135,7 @@ const Pass integrate_torn{
     .mirror_f64 = mirror<double, false>,
     .swaps_state = true,
     .compensated = &integrate_torn_compensated,
+    .tells_reach = true,
 };
 
 const Pass integrate_torn_compensated{
@@ -146,6 +150,7 @@ const Pass integrate_torn_compensated{
     .mirror_f32 = mirror<float, true>,
     .mirror_f64 = mirror<double, true>,
     .swaps_state = true,
+    .tells_reach = true,
 };
 
 }  // namespace weft

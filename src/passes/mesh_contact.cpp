@@ -7,6 +7,7 @@
 #include "passes/ground.h"
 #include "passes/mesh_grids.h"
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/substep.h"
 
 namespace weft {
@@ -169,6 +170,7 @@ void mesh_touch(const MeshField<T>& field, const SolidRow<T>& row, const Vec3<T>
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!take_reach(buffers, shared::kReachMeshes)) return;
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   const Ground<T> ground(context.model);
   const Grid& grid = context.model.grid;
@@ -213,6 +215,7 @@ const Pass mesh_contact{
     .constants = constants,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
+    .reach_word = shared::kReachMeshes,
 };
 
 }  // namespace weft

@@ -2,6 +2,7 @@
 // CPU mirror.
 #include "passes/ground.h"
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/substep.h"
 
 namespace weft {
@@ -20,6 +21,7 @@ Constants constants(const Model& m) {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!take_reach(buffers, shared::kReachSolids)) return;
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   const Ground<T> ground(context.model);
   const Grid& grid = context.model.grid;
@@ -47,6 +49,7 @@ const Pass solid_contact{
     .constants = constants,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
+    .reach_word = shared::kReachSolids,
 };
 
 }  // namespace weft

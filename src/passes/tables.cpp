@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "model/distance_grid.h"
-#include "passes/coefficients.h"
+#include "passes/reach.h"
 
 namespace weft {
 
@@ -103,6 +103,10 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
       const TiltRow<double> tilt = tilt_row_exact(model);
       table.emplace_back(glm::vec<3, T>(tilt.normal), static_cast<T>(tilt.level));
     }
+    if (!has_reach(model)) continue;
+    const ReachRow<T> reach = reach_row<T>(model, kick_drift);
+    table.emplace_back(reach.low, reach.leap);
+    table.emplace_back(reach.high, T(0));
   }
 }
 

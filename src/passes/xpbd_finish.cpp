@@ -1,6 +1,7 @@
 // xpbd_finish: velocities from what the particles have moved, then contact. Declaration and CPU mirror.
 // Source: Macklin et al. 2019, Small Steps, algorithm 1, line 14.
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/xpbd.h"
 
 namespace weft {
@@ -18,6 +19,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& position_next = buffers[BufferId::position_next];  // how far each has moved
   auto& velocity_next = buffers[BufferId::velocity_next];
   velocity_next.resize(grid.count());
+  ReachTeller<T> reach(context, buffers);
   parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
       const Particle<T> own(buffers, substep, p);
@@ -27,6 +29,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
         x1 = own.x + moved;
         v = moved / substep.row.drift;
         substep.touch(own.x, x1, v);
+        reach.look(own.x, x1);
       }
       position_next[p] = glm::vec<4, T>(x1, own.relative);
       velocity_next[p] = glm::vec<4, T>(v, T(0));
@@ -44,6 +47,7 @@ const Pass xpbd_finish{
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .swaps_state = true,
+    .tells_reach = true,
 };
 
 }  // namespace weft

@@ -8,6 +8,7 @@
 #include "passes/collision.h"
 #include "passes/mesh_grids.h"
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/tables.h"
 #include "passes/tearing.h"
 #include "passes/xpbd.h"
@@ -38,6 +39,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
+    case BufferId::reach_groups: return shared::kReachWords;
     case BufferId::torn_mesh: return torn_mesh_words(model.grid);
     default:  // one element a particle
       return model.grid.count();
@@ -199,6 +201,8 @@ void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers)
   }
   auto& state = buffers.words_of(BufferId::collision_state);
   if (!state.empty()) state = initial_collision_state(model.grid);
+  auto& reach = buffers.words_of(BufferId::reach_groups);
+  if (!reach.empty()) reach = initial_reach_groups(model.grid);
 }
 
 template void size_buffers(const Plan&, const Model&, HostBuffers<float>&);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "passes/integrate.h"
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/strain_limit.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
@@ -67,6 +68,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
     const auto touched = buffers_of(*step.pass);
     needed.insert(touched.begin(), touched.end());
   }
+  if (plan.asks_reach) needed.insert(BufferId::reach_groups);
   std::vector<PlanBuffer> buffers;
   for (const BufferId id : needed)
     buffers.push_back({id, slot_bytes(id, model, plan.row_count(), plan.in_double()) * slot_count(id)});
@@ -224,6 +226,7 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
                           .repeat = 1,
                           .range = present.domain(model),
                           .constants = {}});
+  plan.asks_reach = has_reach(model);
   plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
   if (model.grid.cloths > 1) plan.sheet_rows = model.grid.ny;

@@ -42,7 +42,8 @@ struct Plan {
   std::vector<PlanBuffer> buffers;  ///< ascending binding
   std::vector<LeftOut> left_out;
   std::uint32_t sheet_rows =
-      0;  ///< of each of several cloths: constant 30 of the passes that ask for it; 0: one
+      0;                    ///< of each of several cloths: constant 30 of the passes that ask for it; 0: one
+  bool asks_reach = false;  ///< contact runs where the cloth comes near a body (passes/reach.h)
   bool in_double() const { return precision == "f64"; }
   std::uint64_t bytes() const;
   std::uint64_t dispatches() const;  ///< a full frame's

@@ -68,6 +68,8 @@ std::string describe(const Plan& plan, const Model& model) {
       text += fmt::format("Passes of self-collision run in every {}th substep.\n", step.interval);
       break;
     }
+  if (plan.asks_reach)
+    text += "Contact with bodies runs in the substeps in which the cloth comes near one.\n";
   text += raised_text(plan, model);
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",

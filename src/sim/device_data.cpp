@@ -9,6 +9,7 @@
 #include "passes/collision.h"
 #include "passes/mesh_grids.h"
 #include "passes/moved_pins.h"
+#include "passes/reach.h"
 #include "passes/strain_limit.h"
 #include "passes/tables.h"
 #include "passes/xpbd.h"
@@ -103,6 +104,14 @@ void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
     for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);
   }
+}
+
+void write_groups(GpuBuffers& buffers, const Model& model) {
+  const auto write = [&](BufferId id, const std::vector<std::uint32_t>& words) {
+    if (buffers.has(id)) buffers.at(id).write(std::as_bytes(std::span(words)));
+  };
+  write(BufferId::collision_state, initial_collision_state(model.grid));
+  write(BufferId::reach_groups, initial_reach_groups(model.grid));
 }
 
 void write_state(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,

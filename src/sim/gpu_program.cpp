@@ -48,6 +48,7 @@ VkBufferUsageFlags usage_of(BufferId id) {
     case BufferId::normal: return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
     case BufferId::band_scratch: return kStorage | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     case BufferId::torn_mesh: return kStorage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    case BufferId::reach_groups:
     case BufferId::collision_state: return kStorage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     default: return kStorage;
   }
@@ -180,6 +181,7 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
                        std::shared_ptr<GpuPipelines> pipelines, const std::optional<Kernel>& kernel)
     : kernel_(kernel ? *kernel : direct_kernel(device, plan)),
       doubles_(plan.in_double()),
+      asks_reach_(plan.asks_reach),
       sheet_rows_(plan.sheet_rows) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
@@ -187,15 +189,18 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
         Step{work_for(device, step, buffers, *pipelines, false), {}, step.item, nullptr, 0});
     if (kernel_.substeps > 1 && step.pass == &integrate && step.block == Block::substep)
       made.several = work_for(device, step, buffers, *pipelines, true);
-    if (!step.pass->groups_word) continue;
-    made.groups = &buffers.at(BufferId::collision_state);
-    made.groups_offset = *step.pass->groups_word * sizeof(std::uint32_t);
+    const bool by_reach = asks_reach_ && step.pass->reach_word;
+    if (!by_reach && !step.pass->groups_word) continue;
+    made.groups = &buffers.at(by_reach ? BufferId::reach_groups : BufferId::collision_state);
+    made.groups_offset =
+        (by_reach ? *step.pass->reach_word : *step.pass->groups_word) * sizeof(std::uint32_t);
   }
 }
 
 GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
                                       GpuPipelines& pipelines, bool several) {
-  const Variant variant = variant_for(device, step, kernel_, several, doubles_);
+  Variant variant = variant_for(device, step, kernel_, several, doubles_);
+  if (asks_reach_ && (step.pass->tells_reach || step.pass->reach_word)) variant.module += "+WEFT_REACH";
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
   if (step.pass == &integrate && kernel_.kind == KernelKind::steal) return {pipeline, kernel_.queues, 1};

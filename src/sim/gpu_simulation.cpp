@@ -50,10 +50,7 @@ class VulkanSimulation final : public GpuSimulation {
         budget_(model_, start_state(model_), plan_.in_double()),
         free_mass_ratio_(free_mass_ratio(model_)) {
     write_blocks(buffers_, model_, plan_, perturbation_);
-    if (model_.scene.self_collision) {
-      const std::vector<std::uint32_t> state = initial_collision_state(model_.grid);
-      buffers_.at(BufferId::collision_state).write(std::as_bytes(std::span(state)));
-    }
+    write_groups(buffers_, model_);
     write(start_state(model_));
   }
   ~VulkanSimulation() override {

@@ -16,6 +16,7 @@ class NativeSimulation final : public CpuSimulation<float> {
  public:
   NativeSimulation(const Model& model, const Solver& solver, const native::EngineOptions& options)
       : CpuSimulation(model, solver, "f32"), engine_(model_, plan_, options) {
+    buffers_.words_of(BufferId::reach_groups).clear();  // nothing tells the mirrors of contact: they look
     look_at_plan();
     write(start_state(model_));
   }

@@ -1,0 +1,87 @@
+// The box round all bodies, and how far beyond them it goes.
+#include "passes/reach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "model/distance_grid.h"
+
+namespace weft {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Cloth that is faster than this counts as near wherever it is [m/s].
+constexpr double kLeapSpeed_m_s = 64.0;
+
+/// Of lengths and places: many times what contact in float loses on the way to a distance.
+constexpr double kRounding = 1e-5;
+
+/// A body's extent in its own frame: a box about a point of it, with a rounding.
+struct Extent {
+  glm::dvec3 middle, half;
+  double rounding;
+};
+
+/// The part of the box round one body.
+void include(const SolidRow<double>& body, const Extent& extent, ReachRow<double>& reach) {
+  double turn2 = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::dvec3 moved = body.axes[axis] - body.start_axes[axis];
+    turn2 += glm::dot(moved, moved);
+  }
+  const double turn = std::sqrt(turn2) + kRounding;
+  const double travel = 1.001 * std::sqrt(3.0) * reach.leap + glm::length(body.center - body.start);
+  const double own = glm::length(extent.middle) + glm::length(extent.half) + extent.rounding;
+  if (!(turn < 0.5)) {  // so fast a turn leaves nothing out of reach
+    reach.low = glm::dvec3(-kInfinite);
+    reach.high = glm::dvec3(kInfinite);
+    return;
+  }
+  const double farthest = (own + (1.0 + turn) * travel) / (1.0 - turn);
+  const double place = glm::length(body.center) + glm::length(body.start);
+  const double beyond = turn * (farthest + travel) + travel + kRounding * (place + farthest);
+  glm::dvec3 middle = body.center, half(extent.rounding + beyond);
+  for (int axis = 0; axis < 3; ++axis) {
+    middle += extent.middle[axis] * body.axes[axis];
+    half += extent.half[axis] * glm::abs(body.axes[axis]);
+  }
+  reach.low = glm::min(reach.low, middle - half);
+  reach.high = glm::max(reach.high, middle + half);
+}
+
+}  // namespace
+
+bool has_reach(const Model& model) {
+  return (solid_count(model) > 0 || !model.meshes.empty()) && !has_tilted_floor(model);
+}
+
+ReachRow<double> reach_row_exact(const Model& model, const KickDrift& row) {
+  ReachRow<double> reach{glm::dvec3(kInfinite), glm::dvec3(-kInfinite), kInfinite};
+  if (!(row.drift_s > 0.0)) return reach;
+  reach.leap = kLeapSpeed_m_s * row.drift_s;
+  const SubstepRow<double> bodies = substep_row_exact(model, row);
+  for (const SolidRow<double>& solid : bodies.solids)
+    include(solid, {glm::dvec3(0.0), solid.half, solid.reach}, reach);
+  for (std::size_t m = 0; m < bodies.meshes.size(); ++m) {
+    const DistanceGrid& grid = *model.meshes[m];
+    const glm::dvec3 half = 0.5 * grid.cell_m * glm::dvec3(grid.samples - 1u);
+    include(bodies.meshes[m], {grid.low_m + half, half, 0.0}, reach);
+  }
+  return reach;
+}
+
+std::vector<std::uint32_t> initial_reach_groups(const Grid& grid) {
+  return {0, grid.rows(), 1, 0, grid.rows(), 1};
+}
+
+bool take_reach(HostWords& buffers, std::uint32_t word) {
+  auto& words = buffers.words_of(BufferId::reach_groups);
+  return words.empty() || std::exchange(words[word], 0u) != 0;
+}
+
+}  // namespace weft

@@ -1,0 +1,57 @@
+// Scenes whose bodies come, go and stay away, for the tests of when contact runs.
+#pragma once
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "model/measures.h"
+#include "scenes.h"
+
+namespace weft::test {
+
+struct ReachCase {
+  const char* name;
+  std::string bodies;
+  const char* solver = "leapfrog";
+  const char* precision = "f32";
+};
+
+/// A cloth that lies in the air, held by one corner, with other sections.
+inline Model reach_model(const ReachCase& c, std::uint32_t resolution = 12) {
+  const std::string text = fmt::format(
+      "[cloth]\nresolution = {}\nheight = 0.8\norientation = \"horizontal\"\ncenter = [0, 0.9, 0]\n"
+      "imperfection = 0.01\n[[pins]]\nat = [0, 0]\n[gravity]\n[floor]\nheight = 0.5\n{}[solver]\nprecision = "
+      "\"{}\"\n",
+      resolution, c.bodies, c.precision);
+  return build_model(parse_scene(text, WEFT_SOURCE_DIR "/assets/scenes/reach.toml").scene);
+}
+
+/// Through the cloth at 150 m/s, in the second frame alone.
+inline const std::string kFastBox =
+    "[[boxes]]\nsize = [0.3, 0.05, 0.3]\nfriction = 0.2\nkeys = [{ time = 0, center = [0, -2, 0] }, { time = "
+    "0.02, center = [0.1, -1, 0] }, { time = 0.04, center = [0.1, 2, 0.1], rotation = [30, 50, 0] }]\n";
+inline const std::string kFarCapsule =
+    "[[capsules]]\na = [-0.5, -100, 0]\nb = [0.5, -100, 0]\nradius = 0.1\n";
+/// Arrives in the same substeps as the fast box.
+inline const std::string kFastMesh =
+    "[[meshes]]\nfile = \"../meshes/ring.obj\"\nresolution = 12\nkeys = [{ time = 0, center = [0.2, -2, 0] "
+    "}, "
+    "{ time = 0.02, center = [0.2, -0.9, 0] }, { time = 0.04, center = [0.1, 2, 0.1], rotation = [60, 0, 0] "
+    "}]\n";
+/// Reaches the cloth in the third frame.
+inline const std::string kRisingCapsule =
+    "[[capsules]]\na = [-0.5, 0.7, 0]\nb = [0.5, 0.7, 0.1]\nradius = 0.02\nfriction = 0.3\nvelocity = [0, 4, "
+    "0]\n";
+
+inline std::vector<ReachCase> reach_cases() {
+  return {{"a fast box", kFastBox},
+          {"a far capsule and a fast box", kFarCapsule + kFastBox},
+          {"a box and a mesh in one substep", kFastBox + kFastMesh},
+          {"a fast mesh, xpbd", kFastMesh, "xpbd"},
+          {"a rising capsule, f32k", kRisingCapsule, "leapfrog", "f32k"},
+          {"a fast box, torn", kFastBox + "[tearing]\nstrain = 0.2\n"},
+          {"a rising capsule, symplectic-euler in f64", kRisingCapsule, "symplectic-euler", "f64"}};
+}
+
+}  // namespace weft::test

@@ -1,0 +1,65 @@
+// The device asks whether the cloth comes near a body as the mirrors do, with every kernel, and its contact
+// has no workgroups where it does not.
+#include "passes/passes.h"
+#include "passes/reach.h"
+#include "passes/tables.h"
+#include "reach_fixture.h"
+#include "sim/gpu_simulation.h"
+#include "sim/kernels.h"
+#include "sim/pass_runner.h"
+#include "validated_pass.h"
+
+namespace weft::test {
+namespace {
+
+class ReachGpuTest : public ValidatedPassTest {};
+
+TEST_F(ReachGpuTest, EveryKernelEndsInTheBitsOfTheReference) {
+  const auto pipelines = std::make_shared<GpuPipelines>(device());
+  for (const ReachCase& c : reach_cases()) {
+    if (std::string_view(c.precision) == "f64" && !device().info().float64) continue;
+    const Model model = reach_model(c);
+    const Solver& solver = find_solver(c.solver);
+    const Plan plan = compile_plan(model, solver, c.precision);
+    const auto reference = make_cpu_simulation(model, solver, c.precision);
+    for (int f = 0; f < 3; ++f) reference->advance(model.scene.solver.frame_s, plan.substeps);
+    for (const std::string& kernel : fitting_kernel_names(device(), plan)) {
+      const auto simulation =
+          GpuSimulation::create(device(), model, solver, {.pipelines = pipelines, .kernel = kernel});
+      for (int f = 0; f < 3; ++f) simulation->advance(model.scene.solver.frame_s, plan.substeps);
+      if (device().info().software)
+        expect_same(simulation->read(), reference->read(), fmt::format("{}, {}", c.name, kernel));
+      EXPECT_EQ(simulation->bytes_allocated(), simulation->bytes_expected()) << c.name;
+    }
+  }
+}
+
+TEST_F(ReachGpuTest, EveryPassEqualsItsMirror) {
+  EXPECT_GT(rows_of(reach_model({"", kRisingCapsule + kFastMesh}), "leapfrog", "mesh_contact"), 0u);
+  EXPECT_GT(rows_of(reach_model({"", kRisingCapsule}), "xpbd", "solid_contact"), 0u);
+}
+
+/// The workgroups that the first substep leaves for contact with boxes, then with meshes.
+std::array<std::uint32_t, 2> groups_after(gpu::Device& device, const Model& model) {
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  std::size_t step = 0;
+  while (plan.steps[step].pass != &integrate) ++step;
+  HostBuffers<float> host;
+  size_buffers(plan, model, host);
+  load_state(model, start_state(model), host);
+  const auto rows = plan.solver->schedule(0.0, model.scene.solver.frame_s, plan.substeps);
+  PassRunner runner(device, model, plan, Perturbation("", plan));
+  const auto words = runner.run(step, host, rows, 0).buffers.words_of(BufferId::reach_groups);
+  EXPECT_EQ(words.at(shared::kReachSolids + 1), model.grid.rows());
+  return {words.at(shared::kReachSolids), words.at(shared::kReachMeshes)};
+}
+
+TEST_F(ReachGpuTest, ContactHasNoWorkgroupsWhereBodiesAreFarAway) {
+  constexpr std::uint32_t kResolution = 70;  // two workgroups a row
+  const std::string under = "[[boxes]]\ncenter = [0.4, 0.8, 0]\nsize = [0.1, 0.2, 0.1]\n";
+  EXPECT_EQ(groups_after(device(), reach_model({"", kFarCapsule}, kResolution)), (std::array{0u, 0u}));
+  EXPECT_EQ(groups_after(device(), reach_model({"", under}, kResolution)), (std::array{2u, 2u}));
+}
+
+}  // namespace
+}  // namespace weft::test

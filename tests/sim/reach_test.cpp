@@ -1,0 +1,88 @@
+// Contact with bodies runs in those substeps in which the cloth comes near one, and ends in the bits of
+// contact that always runs.
+#include <gtest/gtest.h>
+
+#include "reach_fixture.h"
+#include "sim/cpu_simulation.h"
+#include "sim/native_simulation.h"
+
+namespace weft::test {
+namespace {
+
+/// The reference that counts in how many substeps contact had to run, or makes it run in all.
+template <class T>
+class Counting final : public CpuSimulation<T> {
+ public:
+  Counting(const Model& model, const ReachCase& c, bool always)
+      : CpuSimulation<T>(model, find_solver(c.solver), c.precision) {
+    if (always) this->buffers_.words_of(BufferId::reach_groups).clear();
+    this->write(start_state(model));
+  }
+  std::uint32_t substeps = 0, near = 0;
+
+ private:
+  void run_substeps(std::uint32_t first, std::uint32_t count) override {
+    for (std::uint32_t k = first; k < first + count; ++k, ++substeps)
+      for (const PlanStep& step : this->plan_.steps) {
+        if (step.block != Block::substep) continue;
+        this->run_step(step, k);
+        const auto& words = this->buffers_.words_of(BufferId::reach_groups);
+        near += step.pass->tells_reach && !words.empty() && words[shared::kReachSolids] != 0 ? 1 : 0;
+      }
+  }
+};
+
+void run_frames(Simulation& simulation, int frames) {
+  for (int f = 0; f < frames; ++f)
+    simulation.advance(simulation.model().scene.solver.frame_s, simulation.plan().substeps);
+}
+
+template <class T>
+void expect_bits_of_contact_in_every_substep(const ReachCase& c) {
+  SCOPED_TRACE(c.name);
+  const Model model = reach_model(c);
+  ASSERT_TRUE(compile_plan(model, find_solver(c.solver), c.precision).asks_reach);
+  Counting<T> asking(model, c, false), always(model, c, true);
+  Counting<T> missing(reach_model({"", kFarCapsule, c.solver, c.precision}), c, true);
+  for (Simulation* simulation : {static_cast<Simulation*>(&asking), static_cast<Simulation*>(&always),
+                                 static_cast<Simulation*>(&missing)})
+    run_frames(*simulation, 4);
+  expect_same(asking.read(), always.read(), "contact that is asked for, and that always runs");
+  EXPECT_NE(state_hash(asking.read()), state_hash(missing.read())) << "nothing was touched";
+  EXPECT_GT(asking.near, 0u);
+  EXPECT_LT(asking.near, asking.substeps) << "there was nothing to leave out";
+}
+
+TEST(Reach, ContactThatIsAskedForHasTheBitsOfContactInEverySubstep) {
+  for (const ReachCase& c : reach_cases())
+    if (std::string_view(c.precision) == "f64")
+      expect_bits_of_contact_in_every_substep<double>(c);
+    else
+      expect_bits_of_contact_in_every_substep<float>(c);
+}
+
+// 100 m below nothing ever runs, and the cloth moves as if the body were not there.
+TEST(Reach, BodiesFarAwayAreNothing) {
+  const ReachCase c{"far", kFarCapsule}, none{"none", ""};
+  Counting<float> far(reach_model(c), c, false), without(reach_model(none), none, false);
+  run_frames(far, 6);
+  run_frames(without, 6);
+  EXPECT_EQ(far.near, 0u);
+  EXPECT_GT(far.substeps, 0u);
+  expect_same(far.read(), without.read(), "with a capsule 100 m below and without");
+}
+
+TEST(Reach, NativeEndsInTheSameBits) {
+  for (const ReachCase& c : reach_cases()) {
+    if (std::string_view(c.precision) != "f32") continue;
+    const Model model = reach_model(c);
+    const auto native = make_native_simulation(model, find_solver(c.solver), "f32", {});
+    const auto reference = make_cpu_simulation(model, find_solver(c.solver), "f32");
+    run_frames(*native, 4);
+    run_frames(*reference, 4);
+    expect_same(native->read(), reference->read(), c.name);
+  }
+}
+
+}  // namespace
+}  // namespace weft::test
