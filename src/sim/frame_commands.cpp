@@ -57,8 +57,8 @@ std::unique_ptr<FrameCommands::Chunk> FrameCommands::record(const ChunkKey& key,
                                                             const DispatchOrder& order) const {
   auto chunk = std::make_unique<Chunk>();
   for (std::uint32_t place = key.first; place < key.first + key.count; ++place)
-    if (const std::size_t step = order[place].step; chunk->runs.empty() || chunk->runs.back() != step)
-      chunk->runs.push_back(step);
+    if (const TimedRun run = run_at(order, place); chunk->runs.empty() || chunk->runs.back() != run)
+      chunk->runs.push_back(run);
   const std::string name = fmt::format("dispatches {} to {}", key.first, key.first + key.count - 1);
   chunk->commands = gpu::Commands(device_, name, gpu::Reuse::many);
   const VkCommandBuffer commands = chunk->commands.begin();
@@ -71,12 +71,10 @@ std::unique_ptr<FrameCommands::Chunk> FrameCommands::record(const ChunkKey& key,
     std::uint32_t run = 0;
     for (std::uint32_t place = key.first; place < key.first + key.count; ++place) {
       const auto [step, substep, count] = order[place];
-      if (place == key.first) recorder.label(plan_.steps[step].pass->name);
-      if (step != chunk->runs[run]) {
-        recorder.end_label();
-        chunk->timer->stamp(commands, ++run);
-        recorder.label(plan_.steps[step].pass->name);
-      }
+      const bool first = place == key.first, another = first || order[place - 1].step != step;
+      if (another && !first) recorder.end_label();
+      if (run_at(order, place) != chunk->runs[run]) chunk->timer->stamp(commands, ++run);
+      if (another) recorder.label(plan_.steps[step].pass->name);
       program_.dispatch(recorder, step, parity, key.slot, plan_.table_row(plan_.steps[step], substep), count);
       if (program_.flips(step)) parity ^= 1u;
     }

@@ -8,6 +8,7 @@
 
 #include "gpu/commands.h"
 #include "sim/gpu_program.h"
+#include "sim/step_times.h"
 
 namespace weft {
 
@@ -24,6 +25,7 @@ class DispatchOrder {
   DispatchOrder(const Plan& plan, std::uint32_t substeps, std::uint32_t at_once = 1);
   std::uint32_t count() const { return end_first_ + end_; }
   Dispatch operator[](std::uint32_t place) const;
+  bool steps_alternate() const { return block_ > 1; }  ///< in the substeps
   /// Whether [first, first + count) lies where the order does not depend on n.
   bool independent_of_substeps(std::uint32_t first, std::uint32_t count) const;
 
@@ -44,12 +46,12 @@ struct ChunkKey {
 
 class FrameCommands {
  public:
-  /// A recorded chunk with its timestamps: one more than it has runs of the same plan step.
+  /// A recorded chunk with its timestamps: one more than it has runs.
   struct Chunk {
     gpu::Commands commands;
     std::unique_ptr<gpu::Timer> timer;
-    std::vector<std::size_t> runs;  ///< the plan step of each run
-    std::uint32_t dispatches = 0;   ///< counted while recording
+    std::vector<TimedRun> runs;
+    std::uint32_t dispatches = 0;  ///< counted while recording
     Parity parity_after = 0;
   };
 
@@ -64,6 +66,10 @@ class FrameCommands {
 
  private:
   static constexpr std::size_t kMostChunks = 512;
+  TimedRun run_at(const DispatchOrder& order, std::uint32_t place) const {
+    const auto [step, substep, count] = order[place];
+    return order.steps_alternate() ? run_of(plan_.steps[step], step, substep) : TimedRun{step, false};
+  }
   std::unique_ptr<Chunk> record(const ChunkKey& key, const DispatchOrder& order) const;
   gpu::Device& device_;
   const Plan& plan_;

@@ -108,7 +108,7 @@ class VulkanSimulation final : public GpuSimulation {
     std::vector<FrameCommands::Chunk*> chunks;  // of the frame that runs in it
     std::uint64_t last_submit = 0;
     Clock::time_point start;
-    std::vector<double> step_ms;  // of the frame so far
+    StepTimes times;  // of the frame so far
   };
   struct Frame {  // the one being submitted
     std::uint32_t slot = 0, substeps = 0, done = 0;
@@ -204,12 +204,12 @@ void VulkanSimulation::finish(Slot& slot) {
     dispatches += chunk->dispatches;
     for (std::uint32_t run = 0; run < chunk->runs.size() && device_.info().timestamps; ++run) {
       const double ms = std::max(chunk->timer->between_ms(run, run + 1), 0.0);
-      slot.step_ms[chunk->runs[run]] += ms;
+      slot.times.add(chunk->runs[run], ms);
       total_ms += ms;
     }
   }
   if (device_.info().timestamps)
-    step_ms_ = slot.step_ms;
+    step_ms_ = slot.times.result();
   else  // the wall clock is an upper bound: the submits also waited for others
     total_ms = std::chrono::duration<double, std::milli>(Clock::now() - slot.start).count();
   pacer_.measured(dispatches, total_ms);
@@ -231,7 +231,7 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
   const std::uint32_t slot_index = static_cast<std::uint32_t>(frames_++ % kFrameSlots);
   Slot& slot = slots_[slot_index];
   finish(slot);
-  slot.step_ms.assign(plan_.steps.size(), 0.0);
+  slot.times = StepTimes(plan_);
   write_table(frame_s, substeps, slot_index);
   budget_.elapse(model_.scene, frame_s, substeps, std::exchange(hand_m_s_, 0.0));
   write_allowance(slot_index);
