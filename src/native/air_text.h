@@ -100,7 +100,7 @@ void air_kick(const AirKick& k) {
         right[lane] = i + lane + 1 < k.nx ? -1 : 0;
       }
       const auto at = [&](Index row, int columns) {
-        return load_body(k.rows[row] + column + columns, k.sheet.stride);
+        return load_body(k.rows[row] + column + columns, Strides(k.sheet.stride));
       };
       const Body own = at(j, 0);
       const Vec3 wind = air.has_noise ? noisy_wind(air, own.x) : splat3(air.wind);

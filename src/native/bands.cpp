@@ -45,7 +45,6 @@ void Bands::sweep_band(std::uint32_t own, std::span<const Kick> kicks) {
               .first = band.first,
               .last = band.last,
               .carried = band.carried.get(),
-              .carried_two = band.carried.get() + 3 * cloth_.sheet().stride,
               .half_velocity = half_velocity_};
   const auto await_neighbour = [&](std::uint32_t neighbour, std::uint32_t states) {
     if (neighbour < count()) wait_for(bands_[neighbour]->done, states);

@@ -47,16 +47,27 @@ WEFT_INLINE bool may_touch(const Sphere& sphere, Vec3 x0, Vec3 x1) {
   return any((dot(p1, p1) < reach * reach) | ((dot(p0, path) < Vec{}) & (dot(p1, path) > Vec{})));
 }
 
-WEFT_INLINE Touched touch(const Outside& outside, const Kick& kick, Vec3 x0, Touched free) {
-  Touched now = free;
+/// Out of line likewise: a vector that nothing touches keeps its registers.
+__attribute__((noinline)) void touch_all(const Outside& outside, const Kick& kick, const Vec3& x0,
+                                         Touched& now) {
   for (std::uint32_t s = 0; s < outside.sphere_count; ++s)
     if (may_touch(kick.spheres[s], x0, now.x)) touch_sphere(kick.spheres[s], x0, now.x, now.v);
-  if (!outside.has_floor) return now;
+  if (!outside.has_floor) return;
   const Vec height = splat(outside.floor_height);
   const Mask below = now.x.y < height;
-  if (!any(below)) return now;
+  if (!any(below)) return;
   now.x.y = select(below, height, now.x.y);
   const Vec3 up{Vec{}, splat(1.0f), Vec{}}, still{};
   now.v = select(below, respond(now.v, still, up, splat(outside.floor_friction)), now.v);
+}
+
+WEFT_INLINE Touched touch(const Outside& outside, const Kick& kick, Vec3 x0, Touched free) {
+  bool touched = outside.has_floor && any(free.x.y < splat(outside.floor_height));
+  for (std::uint32_t s = 0; s < outside.sphere_count && !touched; ++s)
+    touched = may_touch(kick.spheres[s], x0, free.x);
+  if (!__builtin_expect(touched, false)) return free;
+  const Vec3 from = x0;
+  Touched now = free;
+  touch_all(outside, kick, from, now);
   return now;
 }

@@ -86,7 +86,7 @@ struct Sweep {
   const Kick* kick;
   float* const* rows;  ///< by row, from first − 2 (where there is one) to last + 1
   std::size_t first, last;
-  float *carried, *carried_two;  ///< P, and the (0,2) pairs' forces of the row above: 3·stride each
+  float* carried;  ///< P, then the (0,2) pairs' forces of the row above: 6·stride, as a row
   /// Velocity Verlet's velocities half a step behind, by row of the cloth: 3·stride each; null in leapfrog.
   float* half_velocity;
 };

@@ -69,6 +69,7 @@ struct Vec3 {
 };
 WEFT_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 WEFT_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+WEFT_INLINE Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
 WEFT_INLINE Vec3 operator*(Vec s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
 WEFT_INLINE Vec dot(Vec3 a, Vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 WEFT_INLINE Vec3 one_left(Vec3 before, Vec3 now) {
