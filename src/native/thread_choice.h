@@ -1,9 +1,10 @@
 // How many threads sweep a cloth: tried on its own substeps, which have to be computed anyway, since no bit
 // depends on it; and tried again now and then, since other programs come and go, and soon when the threads
 // have become slower than one alone was: with cores taken by others they wait for each other. In that trial
-// their latest substeps count instead of the short turns, which may have met free cores by luck.
+// turns are long and their mean counts, for short ones may meet free cores by luck.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace weft::native {
@@ -26,17 +27,26 @@ class ThreadChoice {
   std::uint32_t best() const { return best_; }
 
  private:
+  struct Candidate {
+    std::uint32_t threads = 1;
+    double least_s = std::numeric_limits<double>::infinity();  ///< that a substep took in a turn
+    double sum_s = 0;                                          ///< of all turns but the first
+    std::uint64_t substeps = 0;                                ///< in those
+  };
   bool on_trial() const { return round_ < kRounds; }
   void begin_trial();
-  void report_settled(double substep_s);
+  double substep_s(const Candidate& candidate) const;
+  const Candidate& fastest() const;
+  void report_settled(double seconds, std::uint32_t substeps);
   void end_turn();
 
-  static constexpr std::uint32_t kRounds = 4;  ///< the first wakes the threads and drops what is far off
-  std::vector<std::uint32_t> candidates_;
-  std::vector<double> seconds_;  ///< the least a substep took, by candidate
+  static constexpr std::uint32_t kRounds = 6;  ///< the first wakes the threads
+  std::vector<Candidate> candidates_;          ///< one thread first
   std::uint32_t best_ = 1, round_ = kRounds, candidate_ = 0, turn_substeps_ = 2;
-  double trial_s_ = 0;        ///< what the latest trial took
-  double settled_s_ = 0;      ///< what a substep took since then; 0 before the first
+  bool between_ = false;  ///< the latest turn was handed out between two rounds of a trial
+  double between_s_ = 0;  ///< computed since the latest round
+  double trial_s_ = 0;    ///< what the latest trial took
+  double settled_s_ = 0, settled_substeps_ = 0;  ///< computed lately, fading
   bool distrusted_ = false;   ///< best_ was slower than one thread alone, whatever its turns in the trial say
   double since_trial_s_ = 0;  ///< computed since then
 };

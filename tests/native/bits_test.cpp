@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "model/measures.h"
 #include "native/features.h"
-#include "native/thread_choice.h"
 #include "scene/reader.h"
 #include "sim/native_simulation.h"
 #include "sim/native_validate.h"
@@ -237,24 +236,6 @@ TEST(NativeChoice, AnUnknownWidthIsRefusedWithThoseThereAre) {
     EXPECT_EQ(refusal.code(), Exit::usage);
     EXPECT_NE(std::string(refusal.what()).find("plain"), std::string::npos);
   }
-}
-
-/// A trial never asks for more substeps than are left, and ends with one of its candidates.
-TEST(NativeChoice, TheTrialKeepsTheFastestNumberOfThreads) {
-  native::ThreadChoice choice(4, 1'000'000);
-  for (int turn = 0; turn < 100; ++turn) {
-    const native::Turn next = choice.next(7);
-    ASSERT_LE(next.substeps, 7u);
-    ASSERT_GE(next.substeps, 1u);
-    ASSERT_LE(next.threads, 4u);
-    const double substep_s = next.threads == 3 ? 1e-4 : 2e-4;  // three are the fastest here
-    choice.report(next, substep_s * next.substeps);
-  }
-  EXPECT_EQ(choice.best(), 3u);
-  EXPECT_EQ(choice.next(50).threads, 3u);
-  EXPECT_EQ(choice.next(50).substeps, 50u);
-  native::ThreadChoice small(4, 48 * 48);
-  EXPECT_EQ(small.next(50).threads, 1u);
 }
 
 }  // namespace
