@@ -37,24 +37,28 @@ DrawPairs::DrawPairs(gpu::Device& device, const Model& model) : device_(device) 
   }
 }
 
-native::SurfaceTarget DrawPairs::target() {
-  std::size_t best = shown_ == 0 ? 1 : 0;
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
-    if (p != shown_ && pairs_[p].read_until < pairs_[best].read_until) best = p;
-  target_ = best;
-  Pair& pair = pairs_[target_];
+DrawPairs::Taken DrawPairs::take() {
+  std::size_t best = pairs_.size();
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (p == shown_ || pairs_[p].taken) continue;
+    if (best == pairs_.size() || pairs_[p].read_until < pairs_[best].read_until) best = p;
+  }
+  Pair& pair = pairs_.at(best);
   if (pair.read_until > device_.completed()) device_.wait(pair.read_until);
-  native::SurfaceTarget to{static_cast<float*>(place_of(pair.position, pair.staged_position)),
-                           static_cast<float*>(place_of(pair.normal, pair.staged_normal))};
-  if (pair.torn_mesh) to.torn_mesh = static_cast<std::uint32_t*>(place_of(pair.torn_mesh, pair.staged_mesh));
-  return to;
+  pair.taken = true;
+  Taken taken{best,
+              {static_cast<float*>(place_of(pair.position, pair.staged_position)),
+               static_cast<float*>(place_of(pair.normal, pair.staged_normal))}};
+  if (pair.torn_mesh)
+    taken.surface.torn_mesh = static_cast<std::uint32_t*>(place_of(pair.torn_mesh, pair.staged_mesh));
+  return taken;
 }
 
-void DrawPairs::show() {
+void DrawPairs::show(const Taken& taken) {
   Pair& before = pairs_[shown_];
   const std::uint64_t now = device_.submitted();
   if (now != before.shown_since) before.read_until = now;  // else no picture was made of it
-  Pair& next = pairs_[target_];
+  Pair& next = pairs_[taken.pair];
   if (next.position.mapped() == nullptr) {
     next.position.write(std::as_bytes(std::span(next.staged_position)));
     next.normal.write(std::as_bytes(std::span(next.staged_normal)));
@@ -62,7 +66,8 @@ void DrawPairs::show() {
   if (next.torn_mesh && next.torn_mesh.mapped() == nullptr)
     next.torn_mesh.write(std::as_bytes(std::span(next.staged_mesh)));
   next.shown_since = device_.submitted();
-  shown_ = target_;
+  next.taken = false;
+  shown_ = taken.pair;
 }
 
 std::uint64_t DrawPairs::bytes() const {

@@ -27,6 +27,8 @@ struct PlacedParticle {
 class DrawnSimulation : public Simulation {
  public:
   virtual DrawBuffers draw_buffers() const = 0;
+  /// Simulated time [s] of what draw_buffers() shows: a thread of its own may have come further.
+  virtual double shown_time_s() const { return time_s(); }
   /// Milliseconds of each plan step in the latest finished frame, in plan order; empty when nobody knows.
   virtual std::vector<double> step_ms() const = 0;
   /// Returns when every part of a frame that was begun with continue_frame() is finished.

@@ -1,6 +1,8 @@
 // One mutex orders everything: whoever holds it while no part is being computed may touch the simulation.
 #include "sim/host_drawn.h"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -13,10 +15,16 @@
 namespace weft {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double kPart_s = 0.006;                  ///< computed in one go: what a stop waits for
 constexpr std::chrono::milliseconds kPatience{8};  ///< that continue_frame() waits for the frame's end
 
-class HostDrawn final : public DrawnSimulation {
+Clock::duration duration_of(double wall_s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wall_s));
+}
+
+class HostDrawn final : public HostDrawnSimulation {
  public:
   HostDrawn(gpu::Device& device, std::unique_ptr<HostSimulation> simulation)
       : simulation_(std::move(simulation)), pairs_(device, simulation_->model()) {
@@ -28,7 +36,6 @@ class HostDrawn final : public DrawnSimulation {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
-      running_ = false;
     }
     changed_.notify_all();
     thread_.join();
@@ -42,32 +49,32 @@ class HostDrawn final : public DrawnSimulation {
   double time_s() const override { return facts().time_s; }
   std::optional<Divergence> divergence() const override { return facts().divergence; }
   std::vector<double> step_ms() const override { return facts().step_ms; }
+  double latest_frame_ms() const override { return facts().frame_ms; }
   DrawBuffers draw_buffers() const override { return pairs_.shown(); }
+  double shown_time_s() const override { return shown_time_s_; }
   std::uint64_t bytes_allocated() const override { return bytes_; }
 
   State read() override {
-    const auto stopped = stop();
+    const auto held = hold();
     return simulation_->read();
+  }
+  std::optional<State> last_good() override {
+    const auto held = hold();
+    return simulation_->last_good();
+  }
+  std::optional<SelfCollisionReport> self_collision() override {
+    const auto held = hold();
+    return simulation_->self_collision();
   }
   void write(const State& state) override {
     const auto stopped = stop();
     simulation_->write(state);
-    under_way_ = ended_ = false;
-    show_now();
-  }
-  std::optional<State> last_good() override {
-    const auto stopped = stop();
-    return simulation_->last_good();
-  }
-  std::optional<SelfCollisionReport> self_collision() override {
-    const auto stopped = stop();
-    return simulation_->self_collision();
+    drop_frame();
   }
   bool adopt(const Model& model) override {
     const auto stopped = stop();
     if (!simulation_->adopt(model)) return false;
-    under_way_ = ended_ = false;
-    show_now();
+    drop_frame();
     return true;
   }
   void place(std::span<const PlacedParticle> particles) override {
@@ -81,23 +88,26 @@ class HostDrawn final : public DrawnSimulation {
     }
     return simulation_->frame_stats();
   }
-  void begin_frame(double frame_s, std::uint32_t substeps) override {
-    const auto stopped = stop();
-    simulation_->begin_frame(frame_s, substeps);
-    under_way_ = true;
-    ended_ = false;
-  }
+  void begin_frame(double frame_s, std::uint32_t substeps) override;
   bool continue_frame() override;
   /// Nothing is left behind: the thread goes on by itself.
   void wait() override {}
   void refresh_normals() override;
+
+  FramesDone go_on(const OwedFrames& frames) override;
+  FramesDone stay() override {
+    const auto stopped = stop();
+    by_itself_ = false;
+    return take_done();
+  }
+  bool show_latest(double wait_s) override;
 
  private:
   using Lock = std::unique_lock<std::mutex>;
   /// What others may ask for while a part is being computed.
   struct Facts {
     std::string device_name;
-    double time_s = 0.0;
+    double time_s = 0.0, frame_ms = 0.0;
     std::optional<Divergence> divergence;
     std::vector<double> step_ms;
   };
@@ -106,12 +116,19 @@ class HostDrawn final : public DrawnSimulation {
     return facts_;
   }
   void note_facts();
-  /// Lets the part being computed end; none is begun before the next continue_frame().
+  /// Lets the part being computed end; none is begun before the next continue_frame() or go_on().
   Lock stop();
+  /// The same for as long as the lock is held.
+  Lock hold();
   void rethrow();
+  void drop_frame();
   void show_now();
+  void show_ready();
+  FramesDone take_done();
   void work();
+  bool frame_owed() const { return by_itself_ && left_ > 0 && Clock::now() >= due_; }
   void compute_part(Lock& lock);
+  void note_part(bool more, double ms);
 
   std::unique_ptr<HostSimulation> simulation_;
   DrawPairs pairs_;
@@ -119,20 +136,29 @@ class HostDrawn final : public DrawnSimulation {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Facts facts_;
-  native::SurfaceTarget target_{};
-  bool under_way_ = false;      ///< a frame is begun and not yet seen to be done
-  bool running_ = false;        ///< the thread may compute its parts
-  bool computing_ = false;      ///< one is being computed
-  bool ended_ = false;          ///< the frame is done and stands in target_
-  bool picture_due_ = false;    ///< the next part's end is to be written to target_
-  bool picture_ready_ = false;  ///< it is, and the thread waits for another target
+  DrawPairs::Taken writing_ = pairs_.take();  ///< the thread's while computing_ is set
+  DrawPairs::Taken ready_ = pairs_.take();    ///< where the latest picture is, if is_ready_
+  bool is_ready_ = false;
+  double ready_time_s_ = 0.0, shown_time_s_ = 0.0;
+  bool under_way_ = false;                       ///< a frame is begun and not done
+  double frame_start_s_ = 0.0, frame_ms_ = 0.0;  ///< of that one
+  bool running_ = false;                         ///< the thread may compute
+  bool computing_ = false;                       ///< it does
+  bool ended_ = false;                           ///< a frame is done that continue_frame() has not told of
+  bool by_itself_ = false;                       ///< frames count in done_, and others follow
+  OwedFrames next_;                              ///< what follows,
+  Clock::time_point due_;                        ///< not before,
+  std::uint32_t left_ = 0;                       ///< so often at most
+  FramesDone done_;
+  std::uint32_t holders_ = 0;             ///< who waits for a pause between two parts
+  std::atomic<bool> picture_due_{false};  ///< the part being computed is to be written at its end
   bool stopping_ = false;
   std::exception_ptr failure_;
   std::thread thread_;
 };
 
 void HostDrawn::note_facts() {
-  facts_ = {simulation_->device_name(), simulation_->time_s(), simulation_->divergence(),
+  facts_ = {simulation_->device_name(), simulation_->time_s(), facts_.frame_ms, simulation_->divergence(),
             simulation_->step_ms()};
 }
 
@@ -144,88 +170,190 @@ HostDrawn::Lock HostDrawn::stop() {
   return lock;
 }
 
+HostDrawn::Lock HostDrawn::hold() {
+  Lock lock(mutex_);
+  ++holders_;
+  changed_.wait(lock, [&] { return !computing_; });
+  --holders_;
+  changed_.notify_all();  // heard when the lock is given back
+  rethrow();
+  return lock;
+}
+
 void HostDrawn::rethrow() {
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-/// With the thread stopped.
+/// With the thread stopped: the state is another one.
+void HostDrawn::drop_frame() {
+  under_way_ = ended_ = by_itself_ = false;
+  show_now();
+}
+
+/// With nothing being computed.
 void HostDrawn::show_now() {
-  simulation_->write_drawn(pairs_.target());
-  pairs_.show();
+  simulation_->write_drawn(writing_.surface);
+  pairs_.show(writing_);
+  writing_ = pairs_.take();
+  is_ready_ = false;
   note_facts();
+  shown_time_s_ = facts_.time_s;
+}
+
+void HostDrawn::show_ready() {
+  if (!std::exchange(is_ready_, false)) return;
+  pairs_.show(ready_);
+  ready_ = pairs_.take();
+  shown_time_s_ = ready_time_s_;
+}
+
+void HostDrawn::begin_frame(double frame_s, std::uint32_t substeps) {
+  const auto stopped = stop();
+  simulation_->begin_frame(frame_s, substeps);
+  frame_start_s_ = simulation_->time_s();
+  frame_ms_ = 0.0;
+  under_way_ = true;
+  ended_ = by_itself_ = false;
 }
 
 bool HostDrawn::continue_frame() {
   Lock lock(mutex_);
-  if (!under_way_) return false;
-  if (!running_) {
-    target_ = pairs_.target();
+  by_itself_ = false;
+  if (under_way_ && !running_) {
     running_ = true;
     changed_.notify_all();
   }
-  changed_.wait_for(lock, kPatience, [&] { return ended_ || failure_; });
+  changed_.wait_for(lock, kPatience, [&] { return !under_way_ || failure_; });
   rethrow();
-  if (!ended_) return true;
-  ended_ = under_way_ = false;
-  pairs_.show();
+  if (under_way_) return true;
+  ended_ = false;
+  show_ready();
   return false;
 }
 
-/// While the thread runs it writes the picture after its part, and goes on when it has another target.
+/// While the thread runs it writes the picture after its part.
 void HostDrawn::refresh_normals() {
   Lock lock(mutex_);
-  if (ended_) return;  // continue_frame() will show it
-  if (!running_) {
+  if (!is_ready_ && !(running_ && under_way_)) {
     changed_.wait(lock, [&] { return !computing_; });
     return show_now();
   }
   picture_due_ = true;
-  changed_.wait(lock, [&] { return picture_ready_ || ended_ || failure_; });
+  changed_.wait(lock, [&] { return is_ready_ || !running_ || failure_; });
   picture_due_ = false;
   rethrow();
-  if (!std::exchange(picture_ready_, false)) return;
-  pairs_.show();
-  target_ = pairs_.target();
+  show_ready();
+}
+
+FramesDone HostDrawn::take_done() {
+  FramesDone done = std::exchange(done_, {});
+  if (std::exchange(ended_, false)) {  // begun by begin_frame(), and nobody asked since
+    ++done.frames;
+    done.computed_ms += facts_.frame_ms;
+  }
+  done.under_way = under_way_;
+  if (!under_way_) return done;
+  done.part_s = facts_.time_s - frame_start_s_;
+  done.part_ms = frame_ms_;
+  return done;
+}
+
+FramesDone HostDrawn::go_on(const OwedFrames& frames) {
+  const Lock lock(mutex_);
+  rethrow();
+  const FramesDone done = take_done();
+  next_ = frames;
+  const double to_begin = frames.owed - done.frames - (under_way_ ? 1.0 : 0.0);  // 1: it is owed now
+  left_ = static_cast<std::uint32_t>(std::max(to_begin, 0.0) + std::max(1.0, kAhead_s / frames.period_s));
+  due_ = Clock::now() + duration_of(std::clamp((1.0 - to_begin) * frames.period_s, -1e6, 1e6));
+  by_itself_ = running_ = !facts_.divergence;
   changed_.notify_all();
+  return done;
+}
+
+bool HostDrawn::show_latest(double wait_s) {
+  Lock lock(mutex_);
+  if (wait_s > 0.0)
+    changed_.wait_for(lock, duration_of(wait_s), [&] { return is_ready_ || !running_ || failure_; });
+  rethrow();
+  const bool is_new = is_ready_;
+  show_ready();
+  return is_new;
 }
 
 void HostDrawn::work() {
   Lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [&] { return (running_ && !picture_ready_) || stopping_; });
-    if (stopping_) return;
-    compute_part(lock);
-    changed_.notify_all();
+  while (!stopping_) {
+    if (!running_ || holders_ > 0) {
+      changed_.wait(lock);
+    } else if (under_way_ || frame_owed()) {
+      compute_part(lock);
+      changed_.notify_all();
+    } else if (by_itself_ && left_ > 0) {
+      changed_.wait_until(lock, due_);
+    } else {
+      changed_.wait(lock);
+    }
   }
 }
 
-/// The simulation and the target are this thread's while computing_ is set.
+/// The simulation and writing_ are this thread's while computing_ is set.
 void HostDrawn::compute_part(Lock& lock) {
   computing_ = true;
-  const bool picture = picture_due_;
+  const bool begins = !std::exchange(under_way_, true);
+  if (begins) {
+    frame_start_s_ = facts_.time_s;
+    frame_ms_ = 0.0;
+    --left_;
+    due_ += duration_of(next_.period_s);
+  }
+  const OwedFrames next = next_;
   lock.unlock();
-  bool more = false;
+  const Clock::time_point began = Clock::now();
+  bool more = false, written = false;
   std::exception_ptr failure;
   try {
+    if (begins) simulation_->begin_frame(next.frame_s, next.substeps);
     more = simulation_->continue_frame(kPart_s);
-    if (!more || picture) simulation_->write_drawn(target_);
+    written = !more || picture_due_;
+    if (written) simulation_->write_drawn(writing_.surface);
   } catch (...) {
     failure = std::current_exception();
   }
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - began).count();
   lock.lock();
   computing_ = false;
   failure_ = failure;
+  if (failure) {
+    running_ = under_way_ = by_itself_ = false;
+    return;
+  }
+  note_part(more, ms);
+  if (!written) return;
+  std::swap(writing_, ready_);
+  is_ready_ = true;
+  ready_time_s_ = facts_.time_s;
+}
+
+void HostDrawn::note_part(bool more, double ms) {
+  frame_ms_ += ms;
+  under_way_ = more;
+  if (!more) facts_.frame_ms = frame_ms_;
   note_facts();
-  picture_ready_ = picture && more && !failure;
-  if (more && !failure) return;
-  running_ = false;
-  ended_ = !failure;
+  if (more) return;
+  if (by_itself_) {
+    ++done_.frames;
+    done_.computed_ms += frame_ms_;
+  } else {
+    ended_ = true;
+  }
+  if (!by_itself_ || facts_.divergence) running_ = by_itself_ = false;
 }
 
 }  // namespace
 
-std::unique_ptr<DrawnSimulation> draw_host_simulation(gpu::Device& device,
-                                                      std::unique_ptr<HostSimulation> simulation) {
+std::unique_ptr<HostDrawnSimulation> draw_host_simulation(gpu::Device& device,
+                                                          std::unique_ptr<HostSimulation> simulation) {
   return std::make_unique<HostDrawn>(device, std::move(simulation));
 }
 

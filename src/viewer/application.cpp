@@ -15,6 +15,7 @@
 #include "render/image.h"
 #include "render/mesh.h"
 #include "viewer/accuracy_panel.h"
+#include "viewer/thread_order.h"
 
 namespace weft {
 namespace {
@@ -68,6 +69,13 @@ ComputeOn compute_on(const ViewerOptions& options, const gpu::Device& device) {
   return speaks_of_vulkan || !device.info().software ? ComputeOn::device : ComputeOn::native;
 }
 
+/// Drawing takes what computing leaves of the cores. Before a thread that computes is made.
+int drawing_behind(const ViewerOptions& options, const gpu::Device& device,
+                   const std::vector<int>& threads_before) {
+  const bool shares = device.info().software && compute_on(options, device) == ComputeOn::native;
+  return shares ? put_behind(threads_before) : 0;
+}
+
 float content_scale(const Window& window) {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window.handle(), &x, &y);
@@ -88,7 +96,9 @@ Application::Application(const ViewerOptions& options)
     : options_(options),
       log_(log_file(options)),
       window_("Weft", {options.width, options.height}),
+      threads_before_device_(threads_now()),
       device_(device_options(options)),
+      threads_behind_(drawing_behind(options, device_, threads_before_device_)),
       surface_(allowed(device_), window_),
       swapchain_(device_, surface_, options.present_mode),
       ui_scale_(content_scale(window_)),
@@ -137,6 +147,7 @@ void Application::run() {
     const double elapsed_s = seconds(now - std::exchange(latest_, now));
     if (window_.minimised()) {  // nothing is computed for nobody; the scene goes on where it was
       window_.take_events();
+      running_.rest();
       running_.pacer().restart();
       log();
       continue;
@@ -346,6 +357,7 @@ void Application::paint() {
   const Clock::time_point now = Clock::now();
   paint_s_ = 0.7 * paint_s_ + 0.3 * seconds(now - began);
   const double took_s = std::max(seconds(now - std::exchange(latest_picture_, now)), 1e-4);
+  if (pictures_ > 1) longest_picture_gap_ms_ = std::max(longest_picture_gap_ms_, 1e3 * took_s);
   pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;
   attempt([&] {
     if (painted->screenshot) save_screenshot(*painted->screenshot);

@@ -62,7 +62,9 @@ class Application {
   ViewerOptions options_;
   StateLog log_;
   Window window_;
+  std::vector<int> threads_before_device_;
   gpu::Device device_;
+  int threads_behind_;  ///< of the device's, that draw
   Surface surface_;
   Swapchain swapchain_;
   float ui_scale_;
@@ -83,7 +85,8 @@ class Application {
   bool scale_was_automatic_ = false;
   Clock::time_point start_ = Clock::now(), latest_ = start_, next_turn_ = start_, film_start_ = start_,
                     last_event_ = start_, latest_picture_ = start_;
-  double picture_s_ = 1.0 / 60.0, paint_s_ = 0.0, pictures_per_s_ = 0.0, longest_gap_ms_ = 0.0;
+  double picture_s_ = 1.0 / 60.0, paint_s_ = 0.0, pictures_per_s_ = 0.0, longest_gap_ms_ = 0.0,
+         longest_picture_gap_ms_ = 0.0;
   std::uint64_t pictures_ = 0, rebuilds_ = 0;
 };
 

@@ -48,19 +48,21 @@ void Application::log() {
       running_.on_gpu() != nullptr ? running_.on_gpu()->kernel().how : "native");
   const std::string figures = fmt::format(
       "time_s={:.6f} real_time={:.6f} slow={} pictures={} rate={:.1f} draw_ms={:.2f} frame_ms={:.2f} "
+      "needs={:.3f} "
       "scale={:.2f} share={} "
-      "gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} substeps={} "
+      "gap_ms={:.1f} picture_gap_ms={:.1f} rebuild_ms={:.1f} kept_plan={} live={} live_bytes={} messages={} "
+      "substeps={} "
       "stretch={:.5f} "
       "camera={:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f} slider={}{}",
       running_.simulation().time_s(), running_.pacer().real_time_factor(),
       flag(running_.pacer().slow_motion()), pictures_, pictures_per_s_, painter_.draw_ms(),
-      running_.figures().frame_ms, painter_.scale(), share_.step(), longest_gap_ms_,
-      running_.figures().rebuild_ms, flag(running_.figures().kept_plan), device_.allocator().live_count(),
-      device_.allocator().live_bytes(), device_.validation_messages().size(),
-      running_.simulation().plan().substeps, running_.figures().max_stretch, camera.target_m.x,
-      camera.target_m.y, camera.target_m.z, camera.yaw_rad, camera.pitch_rad, camera.distance_m,
-      fmt::join(resolution_slider_, ","), accuracy_figures());
-  if (log_.state(settings, figures)) longest_gap_ms_ = 0.0;
+      running_.figures().frame_ms, running_.figures().frame_ms / running_.allowed_ms(), painter_.scale(),
+      share_.step(), longest_gap_ms_, longest_picture_gap_ms_, running_.figures().rebuild_ms,
+      flag(running_.figures().kept_plan), device_.allocator().live_count(), device_.allocator().live_bytes(),
+      device_.validation_messages().size(), running_.simulation().plan().substeps,
+      running_.figures().max_stretch, camera.target_m.x, camera.target_m.y, camera.target_m.z, camera.yaw_rad,
+      camera.pitch_rad, camera.distance_m, fmt::join(resolution_slider_, ","), accuracy_figures());
+  if (log_.state(settings, figures)) longest_gap_ms_ = longest_picture_gap_ms_ = 0.0;
 }
 
 }  // namespace weft

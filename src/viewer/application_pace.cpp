@@ -22,14 +22,14 @@ void Application::look_at_pictures(double elapsed_s) {
 }
 
 /// Whether this turn of the loop draws. What a person does is shown at once. Where pictures are fewer, none
-/// is begun while the device still draws: waiting for it would keep the next frame from being begun.
+/// is begun while the device still draws: it would come no sooner, and the loop would wait instead of looking
+/// what the person does.
 bool Application::picture_due() const {
   if (share_.step() == 0 || view_.screenshot) return true;
   if (since_s(last_event_) < kAwake_s) return since_s(latest_picture_) >= 0.5 * picture_s_;
-  const double waited_s = since_s(latest_picture_);
-  if (!painter_.idle() && waited_s < PictureShare::kLongestPeriod_s) return false;
+  if (!painter_.idle()) return false;
   // Half a turn early rather than half a turn late.
-  return waited_s >= share_.period_s(picture_s_, paint_s_) - 0.5 * picture_s_;
+  return since_s(latest_picture_) >= share_.period_s(picture_s_, paint_s_) - 0.5 * picture_s_;
 }
 
 /// Displays do not always set the pace (a virtual one never does): wait for the next turn's time.

@@ -55,7 +55,8 @@ void LiveWatch::renew(const RunningScene& running) {
 
 /// The time of the running setting, as the device counts it, without what the panel does.
 void LiveWatch::measure_pace(const RunningScene& running) {
-  if (running.hand().holds() || running.mid_frame() || running.simulation().time_s() == taken_s_) return;
+  const bool unfinished = running.on_gpu() != nullptr && running.mid_frame();
+  if (running.hand().holds() || unfinished || running.simulation().time_s() == taken_s_) return;
   taken_s_ = running.simulation().time_s();
   const std::vector<double> steps = running.simulation().step_ms();
   const double ms = std::accumulate(steps.begin(), steps.end(), 0.0) / running.scene().solver.frame_s;

@@ -48,7 +48,7 @@ std::string frame_text(const RunFigures& figures) {
 /// Which of the two keeps the scene from its pace.
 std::string why_slow(const RunningScene& running, const PanelFacts& facts) {
   const RunFigures& figures = running.figures();
-  const double allowed_ms = 1e3 * running.scene().solver.frame_s / running.pacer().speed();
+  const double allowed_ms = running.allowed_ms();
   const double needed_ms = figures.frame_ms > 0.0 ? figures.frame_ms : figures.expected_ms;
   if (needed_ms > allowed_ms || facts.draw_ms <= 0.0)
     return fmt::format("slow motion: {} for a frame of {:.1f} ms", frame_text(figures), allowed_ms);
@@ -97,7 +97,8 @@ float draw_overlay(const RunningScene& running, const PanelFacts& facts, const V
   line(fmt::format("{}{} x {} = {} particles", grid.cloths > 1 ? fmt::format("{} x ", grid.cloths) : "",
                    grid.nx, grid.ny, grid.count()));
   line(fmt::format("{} substeps a frame", running.simulation().plan().substeps));
-  line(fmt::format("simulation {} a frame", frame_text(figures)));
+  const std::string share = share_of_time_text(figures.frame_ms, running.allowed_ms());
+  line(fmt::format("simulation {} a frame{}{}", frame_text(figures), share.empty() ? "" : ", ", share));
   line(fmt::format("drawing {:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.pictures_per_s));
   if (!facts.share.empty()) line(kWarning, facts.share);
   if (view.look.stride > 1) line(fmt::format("drawn with 1 of {0} x {0} particles", view.look.stride));

@@ -39,7 +39,7 @@ void Pacer::frame_reached(double simulated_s) {
   reached_s_ = simulated_s;
 }
 
-void Pacer::give_up_rest() { debt_s_ = std::min(debt_s_, frame_s_); }
+void Pacer::give_up_rest(double frames) { debt_s_ = std::min(debt_s_, frames * frame_s_); }
 
 void Pacer::restart() {
   debt_s_ = 0.0;

@@ -19,13 +19,15 @@ class Pacer {
   void elapse(double wall_s);
   /// Whether another frame is owed.
   bool frame_due() const { return debt_s_ >= frame_s_ * (1.0 - 1e-9); }
+  /// How many, in parts of one too.
+  double frames_owed() const { return debt_s_ / frame_s_; }
   void frame_done();
   /// So much of the frame under way is computed: it counts for the speed at once, not in one leap at the end.
   void frame_reached(double simulated_s);
   /// What was computed of a frame that is given up stays counted; the next one begins at nothing.
   void begin_frame() { reached_s_ = 0.0; }
-  /// Time for this picture is spent: whatever is owed beyond one frame will never be computed.
-  void give_up_rest();
+  /// Time for this picture is spent: whatever is owed beyond so many frames will never be computed.
+  void give_up_rest(double frames = 1.0);
   /// Forgets debt and history, after a pause or a change of scene.
   void restart();
 

@@ -172,7 +172,7 @@ void Painter::record(VkCommandBuffer commands, const RunningScene& running, cons
   change(commands, scene_image_.handle(), kForgotten, kDrawn);
   const DrawnSimulation& simulation = running.simulation();
   renderer_->draw(commands, {scene_image_.view(), extent}, simulation.draw_buffers(), request.camera,
-                  simulation.time_s(), request.look, slot);
+                  simulation.shown_time_s(), request.look, slot);
   change(commands, scene_image_.handle(), kDrawn, kCopiedFrom);
   if (request.film)
     copy_to_host(commands, scene_image_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, extent, film_);

@@ -29,7 +29,7 @@ class PictureShare {
   /// @param scale  that pictures are drawn with
   std::string text(double display_s, double paint_s, double scale) const;
 
-  static constexpr double kLongestPeriod_s = 0.25;  ///< however long a picture takes
+  static constexpr double kLongestPeriod_s = 0.18;  ///< however long a picture takes
   static constexpr double kPatience_s = 1.5;        ///< of slow motion before a step down
   static constexpr double kRest_s = 6.0;  ///< without it before a step up is tried; doubled when it failed
 

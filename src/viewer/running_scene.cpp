@@ -1,9 +1,8 @@
-// Opening, changing and advancing the scene in the window.
+// Opening and changing the scene in the window.
 #include "viewer/running_scene.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -15,7 +14,6 @@
 namespace weft {
 namespace {
 
-using Seconds = std::chrono::duration<double>;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 /// Whether the start, and so what displacement is counted from, is the same.
@@ -76,6 +74,7 @@ void RunningScene::reload(bool new_shaders) {
 }
 
 void RunningScene::reset() {
+  rest();
   release();
   const State start = start_state(model());
   simulation_->write(start);
@@ -130,6 +129,7 @@ Scene RunningScene::composed(const Scene& scene) const {
 void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   const Clock::time_point start = Clock::now();
   const Model model = build_model(composed(next));
+  rest();
   const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth) &&
                     scene_.cloths == next.cloths && simulation_->plan().solver->name == next.solver.name;
   figures_.kept_plan = same && !anew && simulation_->adopt(model);
@@ -146,9 +146,7 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   shown_.scene.pins = next.pins;
   ++shown_version_;
   if (pacer_.frame_s() != next.solver.frame_s) pacer_.set_frame(next.solver.frame_s);
-  mid_frame_ = false;
-  pieces_left_ = 0;
-  under_watch_.reset();  // its end would be another cloth's
+  drop_frame();  // its end would be another cloth's
   watched_.reset();
   if (!keep_state) begin_again();
   figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
@@ -165,6 +163,7 @@ std::unique_ptr<DrawnSimulation> RunningScene::made(const Model& model) {
 void RunningScene::take(std::unique_ptr<DrawnSimulation> next) {
   simulation_ = std::move(next);
   on_gpu_ = dynamic_cast<GpuSimulation*>(simulation_.get());
+  on_host_ = dynamic_cast<HostDrawnSimulation*>(simulation_.get());
   ++version_;
 }
 
@@ -212,10 +211,8 @@ void RunningScene::set_kernel(const std::string& name) {
 }
 
 void RunningScene::begin_again() {
-  mid_frame_ = false;
+  drop_frame();
   divergence_text_.clear();
-  under_watch_.reset();
-  pieces_left_ = 0;
   figures_.measured_at_s = -1.0;
   figures_.frame_ms = figures_.expected_ms = 0.0;
   pacer_.restart();
@@ -247,6 +244,7 @@ void RunningScene::toggle_pin(std::uint32_t particle, const glm::dvec3& place_m)
 
 void RunningScene::grab(const State& state, const Pick& pick) {
   const Model before = model();
+  rest();
   Scene with_hand = composed(scene_);
   with_hand.pins.push_back(Hand::pin(before.grid, pick.particle));
   const Model held = build_model(with_hand);
@@ -255,9 +253,7 @@ void RunningScene::grab(const State& state, const Pick& pick) {
     with_pin->write(state);
     take(std::move(with_pin));
   }
-  mid_frame_ = false;
-  pieces_left_ = 0;
-  under_watch_.reset();
+  drop_frame();
   hand_.grab(before, held, state, pick);
 }
 
@@ -265,135 +261,6 @@ void RunningScene::release() {
   if (!hand_.holds()) return;
   hand_.let_go();
   adopt(scene_, true);
-}
-
-/// The next frame, or the next short piece of one while a hand moves in it.
-void RunningScene::begin_piece() {
-  const double frame_s = scene_.solver.frame_s;
-  const std::uint32_t substeps = simulation_->plan().substeps;
-  if (pieces_left_ == 0) {
-    pieces_ = pieces_left_ = hand_.holds() ? hand_.pieces(model().grid, frame_s, substeps) : 1;
-    frame_wall_ms_ = frame_computed_ms_ = frame_part_s_ = 0.0;
-    pacer_.begin_frame();
-    watch_start();
-  }
-  const double piece_s = frame_s / pieces_;
-  if (hand_.holds()) simulation_->place(hand_.move(piece_s));
-  simulation_->begin_frame(piece_s, (substeps + pieces_ - 1) / pieces_);
-  mid_frame_ = true;
-}
-
-/// Computes the next chunk. Returns whether the frame is unfinished.
-bool RunningScene::continue_frame() {
-  const Clock::time_point start = Clock::now();
-  if (!mid_frame_) begin_piece();
-  const double before_s = simulation_->time_s();
-  mid_frame_ = simulation_->continue_frame();
-  simulation_->wait();
-  if (!mid_frame_ && on_gpu_ == nullptr) {
-    const std::vector<double> steps = simulation_->step_ms();
-    frame_computed_ms_ += std::accumulate(steps.begin(), steps.end(), 0.0);
-  }
-  note_progress(simulation_->time_s() - before_s, Milliseconds(Clock::now() - start).count());
-  if (!mid_frame_) stop_if_diverged();
-  if (diverged()) return false;
-  if (mid_frame_ || --pieces_left_ > 0) return true;
-  watch_end();
-  // The host computes on while a picture is drawn.
-  const double took_ms = on_gpu_ != nullptr ? frame_wall_ms_ : frame_computed_ms_;
-  figures_.frame_ms = figures_.frame_ms > 0.0 ? 0.8 * figures_.frame_ms + 0.2 * took_ms : took_ms;
-  return false;
-}
-
-/// A heavy frame takes many pictures: its speed and its cost are told before it is done.
-void RunningScene::note_progress(double part_s, double chunk_ms) {
-  frame_wall_ms_ += chunk_ms;
-  frame_part_s_ += part_s;
-  pacer_.frame_reached(frame_part_s_);
-  if (figures_.frame_ms == 0.0 && frame_part_s_ > 0.0)
-    figures_.expected_ms = frame_wall_ms_ * scene_.solver.frame_s / frame_part_s_;
-}
-
-/// The state before the first part of a frame, if somebody wants to see a frame.
-void RunningScene::watch_start() {
-  under_watch_.reset();
-  if (!watch_wanted_ || pieces_ > 1) return;
-  const Clock::time_point start = Clock::now();
-  under_watch_.emplace();
-  under_watch_->before = simulation_->read();
-  under_watch_->frame_s = scene_.solver.frame_s;
-  under_watch_->cost_ms = Milliseconds(Clock::now() - start).count();
-}
-
-void RunningScene::watch_end() {
-  if (!under_watch_) return;
-  const Clock::time_point start = Clock::now();
-  under_watch_->after = simulation_->read();
-  under_watch_->cost_ms += Milliseconds(Clock::now() - start).count();
-  watched_ = std::exchange(under_watch_, std::nullopt);
-  watch_wanted_ = false;
-}
-
-void RunningScene::stop_watching() {
-  watch_wanted_ = false;
-  under_watch_.reset();
-  watched_.reset();
-}
-
-void RunningScene::stop_if_diverged() {
-  const std::optional<Divergence> found = simulation_->divergence();
-  if (!found) return;
-  divergence_text_ = fmt::format("{}; likely cause: {}", what_happened(*found, model()),
-                                 likely_cause(*found, model(), simulation_->plan()));
-  simulation_->write(simulation_->last_good().value_or(start_state(model())));
-  release();
-  pieces_left_ = 0;
-  steps_due_ = 0;
-}
-
-void RunningScene::restore() {
-  if (!diverged()) return;
-  divergence_text_.clear();
-  set_paused(true);
-}
-
-void RunningScene::advance(double wall_s, double budget_s) {
-  if (diverged() || (paused_ && steps_due_ == 0)) return;
-  if (!paused_) pacer_.elapse(wall_s);
-  const Clock::time_point start = Clock::now();
-  const auto due = [&] {
-    return paused_ ? steps_due_ > 0 : mid_frame_ || pieces_left_ > 0 || pacer_.frame_due();
-  };
-  while (due()) {
-    if (!continue_frame()) {
-      if (diverged()) break;
-      if (paused_) --steps_due_;
-      if (!paused_) pacer_.frame_done();
-    }
-    if (Seconds(Clock::now() - start).count() >= budget_s) break;
-  }
-  pacer_.give_up_rest();
-  if (mid_frame_) simulation_->refresh_normals();
-}
-
-void RunningScene::set_paused(bool paused) {
-  paused_ = paused;
-  steps_due_ = 0;
-  pacer_.restart();
-}
-
-void RunningScene::measure() {
-  if (Clock::now() >= next_measure_ && !mid_frame_) measure_now();
-}
-
-void RunningScene::measure_now() {
-  const Clock::time_point start = Clock::now();
-  const State state = simulation_->read();
-  figures_.max_stretch = stretch(simulation_->model(), state).maximum;
-  figures_.measured_at_s = state.time_s;
-  // At most a twentieth of the time goes into looking.
-  const Clock::time_point end = Clock::now();
-  next_measure_ = end + std::max<Clock::duration>(std::chrono::milliseconds(500), 20 * (end - start));
 }
 
 }  // namespace weft

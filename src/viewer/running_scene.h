@@ -10,6 +10,7 @@
 
 #include "scene/reader.h"
 #include "sim/gpu_simulation.h"
+#include "sim/host_drawn.h"
 #include "study/measure.h"
 #include "viewer/hand.h"
 #include "viewer/pacing.h"
@@ -25,10 +26,10 @@ enum class ComputeOn {
 
 /// Numbers about the run that the overlay shows.
 struct RunFigures {
-  double frame_ms = 0.0;        ///< wall time of one simulated frame, smoothed; 0 until one is computed
-  double expected_ms = 0.0;     ///< until then: what the part computed so far leads one to expect
-  double rebuild_ms = 0.0;      ///< of the latest change of model
-  double max_stretch = 0.0;     ///< read back now and then
+  double frame_ms = 0.0;     ///< wall time that one simulated frame took, smoothed; 0 until one is computed
+  double expected_ms = 0.0;  ///< until then: what the part computed so far leads one to expect
+  double rebuild_ms = 0.0;   ///< of the latest change of model
+  double max_stretch = 0.0;  ///< read back now and then
   double measured_at_s = -1.0;  ///< simulated time of that reading; negative: none yet
   bool kept_plan = false;       ///< the latest change only rewrote parameters
 };
@@ -73,10 +74,15 @@ class RunningScene {
   /// @param place_m  where that particle is, for the mark that is drawn there
   void toggle_pin(std::uint32_t particle, const glm::dvec3& place_m);
 
-  /// Lets wall time pass: computes the frames that are due, in chunks, for about `budget_s` at most.
+  /// Lets wall time pass: computes the frames that are due, in chunks, for about `budget_s` at most. Where
+  /// the simulation has a thread of its own, that one computes them, now and until the next call.
   void advance(double wall_s, double budget_s);
+  /// Nothing is computed from now on until the next advance(), nor by the simulation's own thread.
+  void rest();
   /// What is reached of the wanted pace, and the substeps that it takes.
   Pace pace() const;
+  /// Wall time [ms] that a frame may take at that pace.
+  double allowed_ms() const { return 1e3 * scene_.solver.frame_s / pacer_.speed(); }
   /// Lets XPBD take over from a solver that is too slow, or give back, as the user allowed (stand_in()).
   /// @throws Error as apply does; nothing is taken over then
   void keep_pace();
@@ -148,6 +154,12 @@ class RunningScene {
   void begin_piece();
   bool continue_frame();
   void note_progress(double part_s, double chunk_ms);
+  void tell_progress();
+  void note_frame(double took_ms);
+  bool may_go_on_by_itself() const;
+  void go_on_by_itself(double budget_s);
+  void take_in(const FramesDone& done);
+  void drop_frame();
   void watch_start();
   void watch_end();
   /// Goes back to the last good state and stops there when the device found the present one unsound.
@@ -165,7 +177,8 @@ class RunningScene {
   std::vector<HandPin> hand_pins_;
   std::shared_ptr<GpuPipelines> pipelines_;
   std::unique_ptr<DrawnSimulation> simulation_;
-  GpuSimulation* on_gpu_ = nullptr;  ///< simulation_, when it is one
+  GpuSimulation* on_gpu_ = nullptr;         ///< simulation_, when it is one
+  HostDrawnSimulation* on_host_ = nullptr;  ///< simulation_, when it is one
   Pacer pacer_;
   XpbdStandIn stand_in_;
   std::optional<std::uint64_t> own_needed_of_;  ///< the shown_version that own_needed_ belongs to
@@ -173,6 +186,7 @@ class RunningScene {
   Hand hand_;
   RunFigures figures_;
   bool paused_ = false, mid_frame_ = false;
+  bool by_itself_ = false;  ///< the simulation's thread begins frames that are owed
   std::string divergence_text_;
   std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
   double frame_wall_ms_ = 0.0, frame_computed_ms_ = 0.0, frame_part_s_ = 0.0;  // of the frame under way

@@ -25,6 +25,10 @@ std::string factor_text(double factor) {
   return factor >= 0.095 || factor == 0.0 ? fmt::format("{:.2f}", factor) : fmt::format("{:.2g}", factor);
 }
 
+std::string share_of_time_text(double frame_ms, double allowed_ms) {
+  return frame_ms > 0.0 ? fmt::format("{:.0f} % of the time", 100.0 * frame_ms / allowed_ms) : "";
+}
+
 std::string slow_motion_text(const Pace& pace) {
   if (!pace.slow) return {};
   return fmt::format("{} x real time: {} substeps needed, budget {}", factor_text(pace.real_time_factor),

@@ -24,6 +24,9 @@ std::uint32_t substep_budget(const Pace&);
 /// A share of real time in two decimals, or in two digits where it is too small for them.
 std::string factor_text(double factor);
 
+/// "69 % of the time": what a frame takes of the wall time it may take; empty until one is known.
+std::string share_of_time_text(double frame_ms, double allowed_ms);
+
 /// "0.31 x real time: 3600 substeps needed, budget 1116"; empty where the pace holds.
 std::string slow_motion_text(const Pace&);
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace weft {
 namespace {
 
@@ -42,6 +44,18 @@ TEST(Pacer, WhatCannotBeComputedIsSlowMotion) {
   EXPECT_NEAR(pacer.real_time_factor(), 1.0 / 3.0, 0.02);
   EXPECT_TRUE(pacer.slow_motion());
   EXPECT_LE(run(pacer, 1.0 / 60.0, 60, 100), 62) << "at most one frame of debt remains";
+}
+
+// A hitch of 50 ms, three frames, is made up for where so much may stay owed; without that it is lost.
+TEST(Pacer, AsMuchAsMayStayOwedIsCaughtUp) {
+  for (const double may : {1.0, 6.0}) {
+    Pacer pacer(1.0 / 60.0);
+    pacer.elapse(0.05);
+    EXPECT_NEAR(pacer.frames_owed(), 3.0, 1e-9);
+    pacer.give_up_rest(may);
+    EXPECT_NEAR(pacer.frames_owed(), std::min(may, 3.0), 1e-9);
+    EXPECT_EQ(run(pacer, 1.0 / 60.0, 1, 100), static_cast<int>(std::min(may, 3.0)) + 1);
+  }
 }
 
 TEST(Pacer, ALongStallIsNotCaughtUp) {

@@ -111,5 +111,13 @@ TEST(XpbdStandIn, DoesNotDropAnEffectThatXpbdLacks) {
   EXPECT_EQ(why_no_stand_in(scene), "it has no self-collision");
 }
 
+// Of the 16.7 ms of a 60 Hz frame, at half the speed of 33.3 ms.
+TEST(SubstepBudget, SaysWhatAFrameTakesOfItsTime) {
+  EXPECT_EQ(share_of_time_text(11.5, 1e3 / 60.0), "69 % of the time");
+  EXPECT_EQ(share_of_time_text(11.0, 2e3 / 60.0), "33 % of the time");
+  EXPECT_EQ(share_of_time_text(40.0, 1e3 / 60.0), "240 % of the time");
+  EXPECT_EQ(share_of_time_text(0.0, 1e3 / 60.0), "") << "nothing is known yet";
+}
+
 }  // namespace
 }  // namespace weft
