@@ -1,11 +1,18 @@
 # Blender's cloth, hung by two corners as hung.toml: time a frame and stretch, for scripts/compare.
 # Usage: blender --background --factory-startup --python blender.py -- PARTICLES SECONDS
+import math
 import sys
 import time
 
 import bpy
 
 SIZE_M, DENSITY_KG_M2, FRAMES_PER_S = 1.0, 0.2, 60
+IMPERFECTION_M = 0.001  # of hung.toml: a perfectly flat cloth would stay in its plane, where nothing folds
+
+
+def lift(i, j, last):
+    """The ripple that Weft's cloth starts with [m]; `last` is the greatest i and j."""
+    return IMPERFECTION_M * math.sin(3.0 * math.pi * i / last + 0.4) * math.sin(2.0 * math.pi * j / last + 0.9)
 
 
 def hung_cloth(particles):
@@ -13,7 +20,7 @@ def hung_cloth(particles):
     bpy.ops.object.select_all(action="SELECT")
     bpy.ops.object.delete()
     step = SIZE_M / (particles - 1)
-    places = [(i * step, 0.0, SIZE_M - j * step) for j in range(particles) for i in range(particles)]
+    places = [(i * step, lift(i, j, particles - 1), SIZE_M - j * step) for j in range(particles) for i in range(particles)]
     faces = [(j * particles + i, (j + 1) * particles + i, (j + 1) * particles + i + 1, j * particles + i + 1)
              for j in range(particles - 1) for i in range(particles - 1)]
     mesh = bpy.data.meshes.new("cloth")

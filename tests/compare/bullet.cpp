@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <vector>
 
 namespace {
@@ -31,12 +33,24 @@ struct World {
   }
 };
 
+/// The ripple that Weft's cloth starts with [m] (imperfection of hung.toml): a perfectly flat one would stay
+/// in its plane, where nothing folds. `last` is the greatest i and j.
+double lift(int i, int j, int last) {
+  constexpr double kPi = std::numbers::pi, kImperfection_m = 0.001;
+  return kImperfection_m * std::sin(3.0 * kPi * i / last + 0.4) * std::sin(2.0 * kPi * j / last + 0.9);
+}
+
 /// The upper two corners are fixed; as stiff as Bullet goes.
 btSoftBody* hung_patch(World& world, int particles, int iterations) {
   const auto side = btScalar(kSize_m);
   btSoftBody* body =
       btSoftBodyHelpers::CreatePatch(world.world.getWorldInfo(), {0, side, 0}, {side, side, 0}, {0, 0, 0},
                                      {side, 0, 0}, particles, particles, 1 + 2, true);
+  for (int k = 0; k < body->m_nodes.size(); ++k) {
+    btSoftBody::Node& node = body->m_nodes[k];
+    node.m_x.setZ(btScalar(lift(k % particles, k / particles, particles - 1)));
+    node.m_q = node.m_x;
+  }
   body->m_materials[0]->m_kLST = 1;
   body->m_cfg.piterations = iterations;
   body->m_cfg.collisions = 0;
