@@ -15,7 +15,7 @@ list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double 
 # What tells whether the cloth comes near a body, and what then runs: in scenes with capsules, boxes or meshes.
 set(reach_sources ${shader_sources} ${double_sources})
 list(FILTER reach_sources INCLUDE REGEX
-  "/(integrate(_steal|_strip|_texel|_torn)?(_compensated)?|xpbd_finish|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
+  "/(integrate(_steal|_strip|_texel|_torn)?(_compensated)?|xpbd_finish|strain_limit|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
 list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
 
 # Kernels that lack an effect, one constant of effects.glsl each: what bench --effects holds against those that have

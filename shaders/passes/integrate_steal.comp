@@ -32,9 +32,9 @@ void put(uint p, vec4 x, vec4 v) {
   velocity_next[p] = v;
 }
 
+#include "../shared/reach.glsl"
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
-#include "../shared/reach.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 #include "../shared/strip.glsl"

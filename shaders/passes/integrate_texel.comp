@@ -22,9 +22,9 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #define SOURCE_POSITION(p) position_texel(p)
 #define SOURCE_VELOCITY(p) velocity_texel(p)
 
+#include "../shared/reach.glsl"
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
-#include "../shared/reach.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 

@@ -14,6 +14,11 @@ READS (real4, strain_limits)
 UPDATES(real4, position)
 UPDATES(real4, velocity)
 
+#ifdef WEFT_REACH
+#include "../shared/reach.h"
+UPDATES(uint, reach_groups)
+#endif
+
 layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index, item; };
 
@@ -21,6 +26,13 @@ layout(push_constant) uniform Push { uint row_index, item; };
 #include "../shared/spring_colours.glsl"
 
 void main() {
+#ifdef WEFT_REACH
+  // After the last colour of its shape: they are asked for in this substep alone.
+  if (gl_GlobalInvocationID.xy == uvec2(0u)) {
+    if (item == 3u) reach_groups[kReachLinksDown] = 0u;
+    if (item == 7u) reach_groups[kReachLinks] = 0u;
+  }
+#endif
   Spring s;
   if (!coloured_spring(item, s)) return;
   real4 limit = strain_limits[s.kind <= kStructuralJ ? kLimitStructural : kLimitShear];

@@ -162,6 +162,10 @@ real3 spring_force(Column c, inout March m) {
     P = P + pair_force(up ? c.shear_left : absent, m.left_up, m.own);
   }
 
+#ifdef WEFT_REACH
+  look_at_link(m.own.x, m.down1.x, false);
+  look_at_link(m.own.x, m.right.x, false);
+#endif
   m.f01_up = f01_of(c, m.j, m.own, m.down1);  // what the next row calls f01(i, j-1)
   precise real3 F = m.f01_up - P;
   F = F + pair_force(edge ? c.right_edge : c.right_inner, m.own, m.right);
@@ -172,6 +176,10 @@ real3 spring_force(Column c, inout March m) {
     F = F + difference;
     m.right_down = end_at(down && c.right ? p + c.nx + 1u : p);
     F = F + pair_force(down ? c.shear_right : absent, m.own, m.right_down);
+#ifdef WEFT_REACH
+    look_at_link(m.own.x, m.left_down.x, true);
+    look_at_link(m.own.x, m.right_down.x, true);
+#endif
   } else {
     F = F - f10;
   }

@@ -15,9 +15,9 @@ layout(push_constant) uniform Push { uint row_index; };  // which row of the sub
 #include "effects.glsl"
 #include "held_params.glsl"
 layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches down; the device's choice
+#include "reach.glsl"
 #include "force.glsl"
 #include "contact.glsl"
-#include "reach.glsl"
 #include "kick.glsl"
 #include "drift.glsl"
 

@@ -14,9 +14,9 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
 
 #include "effects.glsl"
+#include "reach.glsl"
 #include "force.glsl"
 #include "contact.glsl"
-#include "reach.glsl"
 #include "kick.glsl"
 #include "drift.glsl"
 

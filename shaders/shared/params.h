@@ -66,9 +66,10 @@ using Params = ParamsOf<float>;
 //   [1] xyz = where the noise's lattice is [cells]       w = 1/edge of its cells [1/m]
 //   [2] x = the slice of time  y = the noise's amplitude [m/s]  z, w = density/12 times drag, lift [kg/m³]
 //   then one real4 where the floor is tilted: xyz = its normal, w = what normal·x is on it [m]
-//   then two real4 where the cloth is asked whether it comes near a body (src/passes/reach.h):
+//   then three real4 where the cloth is asked whether it comes near a body or a limit (src/passes/reach.h):
 //   [0] xyz = lowest corner of all that is near [m]      w = a longer drift counts as near [m]
 //   [1] xyz = highest corner [m]                         w unused
+//   [2] squares [m²] of what is near the limit: x, y = a structural link, a diagonal; z = a drift
 WEFT_CONST uint kRowHeadVec4s = 2u;
 WEFT_CONST uint kRowSphereVec4s = 3u;
 WEFT_CONST uint kRowPinVec4s = 2u;
@@ -76,7 +77,7 @@ WEFT_CONST uint kRowSolidVec4s = 10u;
 WEFT_CONST uint kRowFloorVec4s = 1u;
 WEFT_CONST uint kRowMeshVec4s = 12u;
 WEFT_CONST uint kRowAirVec4s = 3u;
-WEFT_CONST uint kRowReachVec4s = 2u;
+WEFT_CONST uint kRowReachVec4s = 3u;
 WEFT_CONST uint kSolidNewtonSteps = 16u;  // in search of where a path enters a capsule or box
 
 WEFT_CONST int kNoisePeriodMask = 1023;   // the wind's noise repeats after so many cells

@@ -1,10 +1,15 @@
 // Tells whether some particle's drift comes near a capsule, a box or a mesh, so that the passes of contact
-// have workgroups: src/passes/reach.h says why nothing else can touch one. A module without WEFT_REACH has
-// none of it. The including pass declares READS(real4, substeps) and includes this before kick.glsl.
+// have workgroups, and whether some link may get longer than the strain limit: src/passes/reach.h says why
+// nothing else can touch a body or be too long. A module without WEFT_REACH has none of it. The including
+// pass declares READS(real4, substeps) and includes this before force.glsl and kick.glsl.
 #ifdef WEFT_REACH
 #include "reach.h"
 UPDATES(uint, reach_groups)
 
+layout(constant_id = 29) const bool asks_links = false;
+
+real4 reach_links;  // squares: structural link, diagonal, drift
+bool tight = false;
 real4 reach_low, reach_high;  // corners; w of the first: a longer drift counts as near [m]
 bool reached = false;         // by a particle of this invocation
 
@@ -13,24 +18,41 @@ void hold_reach(uint row) {
   uint at = row + params.row_stride - kRowReachVec4s;
   reach_low = substeps[at];
   reach_high = substeps[at + 1u];
+  reach_links = substeps[at + 2u];
+}
+
+void look_at_link(real3 a, real3 b, bool diagonal) {
+  if (!asks_links) return;
+  precise real3 d = b - a;
+  precise real q = (d.x * d.x + d.y * d.y) + d.z * d.z;
+  tight = q <= (diagonal ? reach_links.y : reach_links.x) ? tight : true;
 }
 
 void look_for_bodies(real3 x0, real3 x1) {
-  real3 gone = abs(x1 - x0);
+  precise real3 moved = x1 - x0;
+  real3 gone = abs(moved);
   bool leaps = !(max(max(gone.x, gone.y), gone.z) < reach_low.w);
   bool inside = all(greaterThan(x1, reach_low.xyz)) && all(lessThan(x1, reach_high.xyz));
   reached = reached || inside || leaps;
+  if (!asks_links) return;
+  precise real q = (moved.x * moved.x + moved.y * moved.y) + moved.z * moved.z;
+  tight = q < reach_links.z ? tight : true;
 }
 
 // Integers alone, so that it does not matter who comes first.
 void tell_reach() {
-  if (!reached) return;
   uint groups = (params.nx + kReachGroup - 1u) / kReachGroup;
-  atomicMax(reach_groups[kReachSolids], groups);
-  atomicMax(reach_groups[kReachMeshes], groups);
+  if (reached) {
+    atomicMax(reach_groups[kReachSolids], groups);
+    atomicMax(reach_groups[kReachMeshes], groups);
+  }
+  if (!asks_links || !(reached || tight)) return;  // what touches a body is moved once more
+  atomicMax(reach_groups[kReachLinks], ((params.nx + 1u) / 2u + kReachGroup - 1u) / kReachGroup);
+  atomicMax(reach_groups[kReachLinksDown], groups);
 }
 #else
 #define hold_reach(row)
+#define look_at_link(a, b, diagonal)
 #define look_for_bodies(x0, x1)
 #define tell_reach()
 #endif

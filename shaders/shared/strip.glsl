@@ -168,6 +168,10 @@ void step_row(Step s, uint j, uint first) {
     vec3 f01 = strip_pair(line_edge[c] ? k01_edge : k01_inner, x, v, x_down[e], v_down[e]);
     vec3 f10 = strip_pair(edge ? along_edge[e] : along_inner[e], x, v, x_own[o + 1u], v_own[o + 1u]);
     vec3 f11, fT, f20, f02;
+#ifdef WEFT_REACH
+    look_at_link(x, x_down[e], false);
+    look_at_link(x, x_own[o + 1u], false);
+#endif
     precise vec3 F = f01 - above[c];
     F = F + f10;
     precise vec3 P = far_pairs ? f02_up[c] + f01 : f01;
@@ -177,6 +181,10 @@ void step_row(Step s, uint j, uint first) {
       fT = strip_pair(k, x_own[o + 1u], v_own[o + 1u], x_down[e], v_down[e]);
       precise vec3 difference = fT_left - f10_left;
       F = F + difference;
+#ifdef WEFT_REACH
+      look_at_link(x, x_down[e + 1u], true);
+      look_at_link(x_own[o + 1u], x_down[e], true);
+#endif
       F = F + f11;
       P = P + fT;
       P = P + f11_left;

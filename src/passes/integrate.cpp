@@ -45,6 +45,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   position_next.resize(context.model.grid.count());
   velocity_next.resize(context.model.grid.count());
   ReachTeller<T> reach(context, buffers);
+  reach.look_at_links(context.model.grid, std::as_const(buffers)[BufferId::position]);
   Compensation<T, kCompensated> compensation(buffers, context.model.grid.count());
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
     const Particle<T> own(buffers, substep, p);
@@ -59,7 +60,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 }
 
 constexpr Pass telling(Pass pass) {
-  pass.tells_reach = true;
+  pass.tells_reach = pass.sees_links = true;
   return pass;
 }
 

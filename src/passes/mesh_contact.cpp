@@ -215,7 +215,7 @@ const Pass mesh_contact{
     .constants = constants,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .reach_word = shared::kReachMeshes,
+    .reach_word = [](std::uint32_t) { return shared::kReachMeshes; },
 };
 
 }  // namespace weft

@@ -72,9 +72,10 @@ struct Pass {
   /// Runs only where this word of collision_state is not 0; the word and the two after it are its workgroups,
   /// by which a device skips it without being asked. The mirror and the shader look at the word themselves.
   std::optional<std::uint32_t> groups_word = std::nullopt;
-  /// The same of reach_groups, in plans that have it (passes/reach.h).
-  std::optional<std::uint32_t> reach_word = std::nullopt;
+  /// The same of reach_groups, for an item of the pass, in plans that ask (Plan::reach_word); null: none.
+  std::uint32_t (*reach_word)(std::uint32_t item) = nullptr;
   bool tells_reach = false;  ///< moves particles, and says in reach_groups whether one came near a body
+  bool sees_links = false;   ///< and whether a link came near its limit
   /// Brings indices whose order the device may choose into one order, for comparisons; null: there are none.
   void (*settle_order)(HostWords&) = nullptr;
 };

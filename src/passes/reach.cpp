@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "model/distance_grid.h"
+#include "passes/strain_limit.h"
 
 namespace weft {
 namespace {
@@ -54,15 +55,34 @@ void include(const SolidRow<double>& body, const Extent& extent, ReachRow<double
   reach.high = glm::max(reach.high, middle + half);
 }
 
+/// Half the way from rest to the limit, and a quarter of it for each end of a link in one drift.
+void include_links(const Model& model, ReachRow<double>& reach) {
+  const double strain = limiting_strain(model);
+  const auto longest2 = [&](SpringName name) {
+    return std::pow(model.springs[name].rest_m * (1.0 + 0.5 * strain) * (1.0 - kRounding), 2);
+  };
+  reach.link2 = longest2(kStructuralI);
+  reach.diagonal2 = longest2(kShearDown);
+  reach.step2 = std::pow(model.springs[kStructuralI].rest_m * 0.25 * strain * (1.0 - kRounding), 2);
+}
+
 }  // namespace
 
-bool has_reach(const Model& model) {
+bool asks_bodies(const Model& model) {
   return (solid_count(model) > 0 || !model.meshes.empty()) && !has_tilted_floor(model);
 }
 
+bool asks_links(const Model& model) {
+  return has_strain_limit(model) && model.springs[kShearDown].stiffness_n_m > 0.0 &&
+         model.moved_pins.empty() && !has_tilted_floor(model);
+}
+
 ReachRow<double> reach_row_exact(const Model& model, const KickDrift& row) {
-  ReachRow<double> reach{glm::dvec3(kInfinite), glm::dvec3(-kInfinite), kInfinite};
+  ReachRow<double> reach{
+      glm::dvec3(kInfinite), glm::dvec3(-kInfinite), kInfinite, kInfinite, kInfinite, kInfinite};
   if (!(row.drift_s > 0.0)) return reach;
+  if (asks_links(model)) include_links(model, reach);
+  if (!asks_bodies(model)) return reach;
   reach.leap = kLeapSpeed_m_s * row.drift_s;
   const SubstepRow<double> bodies = substep_row_exact(model, row);
   for (const SolidRow<double>& solid : bodies.solids)
@@ -75,13 +95,22 @@ ReachRow<double> reach_row_exact(const Model& model, const KickDrift& row) {
   return reach;
 }
 
-std::vector<std::uint32_t> initial_reach_groups(const Grid& grid) {
-  return {0, grid.rows(), 1, 0, grid.rows(), 1};
+std::vector<std::uint32_t> initial_reach_groups(const Grid& grid, bool links) {
+  const std::uint32_t down = grid.cloths * ((grid.ny + 1) / 2);
+  return {0, grid.rows(), 1, 0, grid.rows(), 1, 0, grid.rows(), 1, 0, down, 1, links ? 1u : 0u};
 }
 
 bool take_reach(HostWords& buffers, std::uint32_t word) {
   auto& words = buffers.words_of(BufferId::reach_groups);
   return words.empty() || std::exchange(words[word], 0u) != 0;
+}
+
+bool take_links(HostWords& buffers, std::uint32_t item) {
+  auto& words = buffers.words_of(BufferId::reach_groups);
+  if (words.empty() || words[shared::kReachAsksLinks] == 0) return true;
+  std::uint32_t& groups = words[reach_word_of_colour(item)];
+  const bool last = item == 2 * kStructuralJ + 1 || item + 1 == kNearSpringColours;
+  return (last ? std::exchange(groups, 0u) : groups) != 0;
 }
 
 }  // namespace weft

@@ -49,7 +49,7 @@ const Pass solid_contact{
     .constants = constants,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
-    .reach_word = shared::kReachSolids,
+    .reach_word = [](std::uint32_t) { return shared::kReachSolids; },
 };
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include "passes/strain_limit.h"
 
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/spring_colours.h"
 #include "passes/substep.h"
 
@@ -35,6 +36,7 @@ void limit_spring(const glm::vec<4, T>& limit, T step_s, glm::vec<4, T>& xa, glm
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!take_links(buffers, context.item)) return;
   const Model& model = context.model;
   const SpringColour colour = SpringColour::of(context.item);
   const std::size_t row = colour.kind <= kStructuralJ ? shared::kLimitStructural : shared::kLimitShear;
@@ -58,6 +60,7 @@ const Pass strain_limit{
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .item_domain = item_domain,
+    .reach_word = reach_word_of_colour,
 };
 
 }  // namespace weft

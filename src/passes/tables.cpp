@@ -107,6 +107,7 @@ void fill_substep_rows(const Model& model, std::span<const KickDrift> rows,
     const ReachRow<T> reach = reach_row<T>(model, kick_drift);
     table.emplace_back(reach.low, reach.leap);
     table.emplace_back(reach.high, T(0));
+    table.emplace_back(reach.link2, reach.diagonal2, reach.step2, T(0));
   }
 }
 

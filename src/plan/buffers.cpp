@@ -202,7 +202,7 @@ void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers)
   auto& state = buffers.words_of(BufferId::collision_state);
   if (!state.empty()) state = initial_collision_state(model.grid);
   auto& reach = buffers.words_of(BufferId::reach_groups);
-  if (!reach.empty()) reach = initial_reach_groups(model.grid);
+  if (!reach.empty()) reach = initial_reach_groups(model.grid, plan.reaching.links);
 }
 
 template void size_buffers(const Plan&, const Model&, HostBuffers<float>&);

@@ -68,7 +68,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
     const auto touched = buffers_of(*step.pass);
     needed.insert(touched.begin(), touched.end());
   }
-  if (plan.asks_reach) needed.insert(BufferId::reach_groups);
+  if (plan.reaching.asked) needed.insert(BufferId::reach_groups);
   std::vector<PlanBuffer> buffers;
   for (const BufferId id : needed)
     buffers.push_back({id, slot_bytes(id, model, plan.row_count(), plan.in_double()) * slot_count(id)});
@@ -226,7 +226,10 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
                           .repeat = 1,
                           .range = present.domain(model),
                           .constants = {}});
-  plan.asks_reach = has_reach(model);
+  plan.reaching.links = asks_links(model) && std::ranges::any_of(plan.steps, [](const PlanStep& step) {
+                          return step.pass->sees_links;
+                        });
+  plan.reaching.asked = asks_bodies(model) || plan.reaching.links;
   plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
   if (model.grid.cloths > 1) plan.sheet_rows = model.grid.ny;
@@ -237,6 +240,12 @@ std::uint64_t Plan::bytes() const {
   std::uint64_t sum = 0;
   for (const PlanBuffer& buffer : buffers) sum += buffer.bytes;
   return sum;
+}
+
+std::optional<std::uint32_t> Reaching::word(const PlanStep& step) const {
+  if (!asked || step.pass->reach_word == nullptr) return std::nullopt;
+  if (step.pass == &strain_limit && !links) return std::nullopt;
+  return step.pass->reach_word(step.item);
 }
 
 std::uint64_t Plan::dispatches() const {

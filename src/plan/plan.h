@@ -2,6 +2,7 @@
 // and why. The CPU reference and the GPU are two interpreters of it.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,14 @@ struct PlanStep {
   std::uint32_t interval = 1;  ///< in the substep block: runs in substeps 0, interval, 2·interval, …
 };
 
+/// Which passes after a drift run only where they have something to do (passes/reach.h).
+struct Reaching {
+  bool asked = false;  ///< contact with bodies, where there are any, and:
+  bool links = false;  ///< the strain limit
+  /// Where in reach_groups the step finds its workgroups; nothing where it always runs.
+  std::optional<std::uint32_t> word(const PlanStep& step) const;
+};
+
 struct PlanBuffer {
   BufferId id;
   std::uint64_t bytes;
@@ -42,8 +51,8 @@ struct Plan {
   std::vector<PlanBuffer> buffers;  ///< ascending binding
   std::vector<LeftOut> left_out;
   std::uint32_t sheet_rows =
-      0;                    ///< of each of several cloths: constant 30 of the passes that ask for it; 0: one
-  bool asks_reach = false;  ///< contact runs where the cloth comes near a body (passes/reach.h)
+      0;  ///< of each of several cloths: constant 30 of the passes that ask for it; 0: one
+  Reaching reaching;
   bool in_double() const { return precision == "f64"; }
   std::uint64_t bytes() const;
   std::uint64_t dispatches() const;  ///< a full frame's

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "passes/collision.h"
+#include "passes/reach.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
 
@@ -68,8 +69,10 @@ std::string describe(const Plan& plan, const Model& model) {
       text += fmt::format("Passes of self-collision run in every {}th substep.\n", step.interval);
       break;
     }
-  if (plan.asks_reach)
+  if (asks_bodies(model))
     text += "Contact with bodies runs in the substeps in which the cloth comes near one.\n";
+  if (plan.reaching.links)
+    text += "strain_limit runs in the substeps in which a link comes near the limit.\n";
   text += raised_text(plan, model);
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",

@@ -31,7 +31,7 @@ Bytes table_bytes(const Model&, const Plan&, std::span<const KickDrift> rows, co
 void write_blocks(GpuBuffers&, const Model&, const Plan&, const Perturbation& = {});
 
 /// Writes the words that indirect dispatches take their workgroups from, as before anything moves.
-void write_groups(GpuBuffers&, const Model&);
+void write_groups(GpuBuffers&, const Model&, const Plan&);
 
 /// Writes the canonical state: position, velocity and, in f32k, what rounding leaves over.
 void write_state(GpuBuffers&, Parity, const Model&, const Plan&, const State&);

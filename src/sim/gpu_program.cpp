@@ -56,6 +56,8 @@ VkBufferUsageFlags usage_of(BufferId id) {
 
 /// The id of `sheet_rows` (shaders/shared/sheets.glsl): beyond all that passes and kernels have.
 constexpr std::size_t kSheetRowsConstant = 30;
+/// And that of `asks_links` (shaders/shared/reach.glsl), before it.
+constexpr std::size_t kAsksLinksConstant = 29;
 
 /// What the host writes or reads every frame, without a copy between; devices seldom touch it.
 bool host_reaches(BufferId id) { return host_written(id) || id == BufferId::watch_state; }
@@ -181,7 +183,7 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
                        std::shared_ptr<GpuPipelines> pipelines, const std::optional<Kernel>& kernel)
     : kernel_(kernel ? *kernel : direct_kernel(device, plan)),
       doubles_(plan.in_double()),
-      asks_reach_(plan.asks_reach),
+      reaching_(plan.reaching),
       sheet_rows_(plan.sheet_rows) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
@@ -189,18 +191,18 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
         Step{work_for(device, step, buffers, *pipelines, false), {}, step.item, nullptr, 0});
     if (kernel_.substeps > 1 && step.pass == &integrate && step.block == Block::substep)
       made.several = work_for(device, step, buffers, *pipelines, true);
-    const bool by_reach = asks_reach_ && step.pass->reach_word;
-    if (!by_reach && !step.pass->groups_word) continue;
-    made.groups = &buffers.at(by_reach ? BufferId::reach_groups : BufferId::collision_state);
-    made.groups_offset =
-        (by_reach ? *step.pass->reach_word : *step.pass->groups_word) * sizeof(std::uint32_t);
+    const std::optional<std::uint32_t> reach = plan.reaching.word(step);
+    if (!reach && !step.pass->groups_word) continue;
+    made.groups = &buffers.at(reach ? BufferId::reach_groups : BufferId::collision_state);
+    made.groups_offset = (reach ? *reach : *step.pass->groups_word) * sizeof(std::uint32_t);
   }
 }
 
 GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
                                       GpuPipelines& pipelines, bool several) {
   Variant variant = variant_for(device, step, kernel_, several, doubles_);
-  if (asks_reach_ && (step.pass->tells_reach || step.pass->reach_word)) variant.module += "+WEFT_REACH";
+  const bool asked = reaching_.word(step).has_value();
+  if (asked || (reaching_.asked && step.pass->tells_reach)) variant.module += "+WEFT_REACH";
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
   if (step.pass == &integrate && kernel_.kind == KernelKind::steal) return {pipeline, kernel_.queues, 1};
@@ -214,11 +216,13 @@ std::size_t GpuProgram::pipeline_for(gpu::Device& device, const PlanStep& step, 
   std::vector<std::uint32_t> constants;
   for (const Constant& constant : step.constants) constants.push_back(constant.value);
   constants.insert(constants.end(), variant.constants.begin(), variant.constants.end());
-  if (sheet_rows_ != 0) {
-    WEFT_ASSERT(constants.size() <= kSheetRowsConstant);
-    constants.resize(kSheetRowsConstant, 0);
-    constants.push_back(sheet_rows_);
-  }
+  const auto set = [&](std::size_t id, std::uint32_t value) {
+    WEFT_ASSERT(constants.size() <= id);
+    constants.resize(id, 0);
+    constants.push_back(value);
+  };
+  if (reaching_.links && step.pass->sees_links) set(kAsksLinksConstant, 1);
+  if (sheet_rows_ != 0) set(kSheetRowsConstant, sheet_rows_);
   for (std::size_t k = 0; k < pipelines_.size(); ++k)
     if (pipelines_[k].module == variant.module && pipelines_[k].constants == constants) return k;
 

@@ -89,7 +89,8 @@ class GpuProgram {
   Work work_for(gpu::Device&, const PlanStep&, const GpuBuffers&, GpuPipelines&, bool several);
   std::size_t pipeline_for(gpu::Device&, const PlanStep&, const Variant&, const GpuBuffers&, GpuPipelines&);
   Kernel kernel_;
-  bool doubles_, asks_reach_;
+  bool doubles_;
+  Reaching reaching_;
   std::uint32_t sheet_rows_;
   std::vector<Pipeline> pipelines_;
   std::vector<Step> steps_;

@@ -7,6 +7,7 @@
 
 #include "model/measures.h"
 #include "scenes.h"
+#include "shared/reach.h"
 
 namespace weft::test {
 
@@ -15,6 +16,7 @@ struct ReachCase {
   std::string bodies;
   const char* solver = "leapfrog";
   const char* precision = "f32";
+  std::uint32_t word = shared::kReachSolids;  ///< of reach_groups, whose substeps are counted
 };
 
 /// A cloth that lies in the air, held by one corner, with other sections.
@@ -44,6 +46,10 @@ inline const std::string kRisingCapsule =
     "[[capsules]]\na = [-0.5, 0.7, 0]\nb = [0.5, 0.7, 0.1]\nradius = 0.02\nfriction = 0.3\nvelocity = [0, 4, "
     "0]\n";
 
+/// The cloth falls freely but for its pinned corner, whose links reach 2 % within four frames.
+inline const std::string kLimit = "[material]\nmembrane = 40\nstrain_limit = 0.02\n";
+inline const std::string kStiffLimit = "[material]\nstrain_limit = 0.3\n";
+
 inline std::vector<ReachCase> reach_cases() {
   return {{"a fast box", kFastBox},
           {"a far capsule and a fast box", kFarCapsule + kFastBox},
@@ -51,7 +57,13 @@ inline std::vector<ReachCase> reach_cases() {
           {"a fast mesh, xpbd", kFastMesh, "xpbd"},
           {"a rising capsule, f32k", kRisingCapsule, "leapfrog", "f32k"},
           {"a fast box, torn", kFastBox + "[tearing]\nstrain = 0.2\n"},
-          {"a rising capsule, symplectic-euler in f64", kRisingCapsule, "symplectic-euler", "f64"}};
+          {"a rising capsule, symplectic-euler in f64", kRisingCapsule, "symplectic-euler", "f64"},
+          {"a limit that the pin's links come to", kLimit, "leapfrog", "f32", shared::kReachLinks},
+          {"a limit that a fast box brings links to", kStiffLimit + kFastBox, "leapfrog", "f32",
+           shared::kReachLinks},
+          {"a limit and a fast box, xpbd", kLimit + kFastBox, "xpbd"},
+          {"a limit, f32k", kLimit, "leapfrog", "f32k", shared::kReachLinks},
+          {"a limit, symplectic-euler in f64", kLimit, "symplectic-euler", "f64", shared::kReachLinks}};
 }
 
 }  // namespace weft::test

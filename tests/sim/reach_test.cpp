@@ -1,5 +1,5 @@
-// Contact with bodies runs in those substeps in which the cloth comes near one, and ends in the bits of
-// contact that always runs.
+// Contact with bodies runs in those substeps in which the cloth comes near one, and the strain limit in which
+// a link comes near it; they end in the bits of passes that always run.
 #include <gtest/gtest.h>
 
 #include "reach_fixture.h"
@@ -9,25 +9,26 @@
 namespace weft::test {
 namespace {
 
-/// The reference that counts in how many substeps contact had to run, or makes it run in all.
+/// The reference that counts in how many substeps contact or the limit had to run, or makes them run in all.
 template <class T>
 class Counting final : public CpuSimulation<T> {
  public:
   Counting(const Model& model, const ReachCase& c, bool always)
-      : CpuSimulation<T>(model, find_solver(c.solver), c.precision) {
+      : CpuSimulation<T>(model, find_solver(c.solver), c.precision), case_(c) {
     if (always) this->buffers_.words_of(BufferId::reach_groups).clear();
     this->write(start_state(model));
   }
   std::uint32_t substeps = 0, near = 0;
 
  private:
+  ReachCase case_;
   void run_substeps(std::uint32_t first, std::uint32_t count) override {
     for (std::uint32_t k = first; k < first + count; ++k, ++substeps)
       for (const PlanStep& step : this->plan_.steps) {
         if (step.block != Block::substep) continue;
         this->run_step(step, k);
         const auto& words = this->buffers_.words_of(BufferId::reach_groups);
-        near += step.pass->tells_reach && !words.empty() && words[shared::kReachSolids] != 0 ? 1 : 0;
+        near += step.pass->tells_reach && !words.empty() && words[case_.word] != 0 ? 1 : 0;
       }
   }
 };
@@ -41,19 +42,19 @@ template <class T>
 void expect_bits_of_contact_in_every_substep(const ReachCase& c) {
   SCOPED_TRACE(c.name);
   const Model model = reach_model(c);
-  ASSERT_TRUE(compile_plan(model, find_solver(c.solver), c.precision).asks_reach);
+  ASSERT_TRUE(compile_plan(model, find_solver(c.solver), c.precision).reaching.asked);
   Counting<T> asking(model, c, false), always(model, c, true);
   Counting<T> missing(reach_model({"", kFarCapsule, c.solver, c.precision}), c, true);
   for (Simulation* simulation : {static_cast<Simulation*>(&asking), static_cast<Simulation*>(&always),
                                  static_cast<Simulation*>(&missing)})
     run_frames(*simulation, 4);
-  expect_same(asking.read(), always.read(), "contact that is asked for, and that always runs");
+  expect_same(asking.read(), always.read(), "what is asked for, and what always runs");
   EXPECT_NE(state_hash(asking.read()), state_hash(missing.read())) << "nothing was touched";
   EXPECT_GT(asking.near, 0u);
   EXPECT_LT(asking.near, asking.substeps) << "there was nothing to leave out";
 }
 
-TEST(Reach, ContactThatIsAskedForHasTheBitsOfContactInEverySubstep) {
+TEST(Reach, WhatIsAskedForHasTheBitsOfWhatRunsInEverySubstep) {
   for (const ReachCase& c : reach_cases())
     if (std::string_view(c.precision) == "f64")
       expect_bits_of_contact_in_every_substep<double>(c);
