@@ -111,10 +111,10 @@ WEFT_INLINE void spring_two_down(const Place& at, const Body& own, const Block& 
              pair_force<(kEffects & kDamping) != 0>(own, below_two, block.pairs[kPair02], lane));
 }
 
-/// Minus the whole force on the particles, every forward spring once.
-template <std::uint32_t kEffects>
-WEFT_INLINE Vec3 reaction_of(const Place& at, const Body& own, const Block& block, Index lane,
-                             FromLeft& left) {
+/// Minus the whole force on the particles, every forward spring once. `between` runs amid the springs.
+template <std::uint32_t kEffects, class Between>
+WEFT_INLINE Vec3 reaction_of(const Place& at, const Body& own, const Block& block, Index lane, FromLeft& left,
+                             const Between& between) {
   constexpr bool kDamped = kEffects & kDamping;
   const Strides s = at.strides;
   const Body below = load_body(at.below, s), right = load_body(at.own + 1, s);
@@ -127,6 +127,7 @@ WEFT_INLINE Vec3 reaction_of(const Place& at, const Body& own, const Block& bloc
     cross = pair_force<kDamped>(right, below, block.pairs[kPairT], lane);
     out = out + cross;
   }
+  between();
   const Vec3 f10 = pair_force<kDamped>(own, right, block.pairs[kPair10], lane);
   sum = sum + f10;
   cross = cross - f10;
@@ -156,46 +157,57 @@ struct Acting {
   Kick kick;
 };
 
+/// A vector whose reaction is known and that has yet to move.
+struct Waiting {
+  float *own = nullptr, *half_velocity = nullptr;  ///< null: there is none; not velocity Verlet
+  const float* inverse_mass = nullptr;
+  const std::uint32_t* has_fixed = nullptr;
+  alignas(64) float reaction[3 * kLanes] = {};
+};
+
 /// docs/float-form.md "Kick and drift" and contact, in place. Gravity and wind are one predicted jump and one
 /// addition each, so that they need no variant of their own; nor does velocity Verlet, whose springs see the
 /// velocity that it predicts.
 template <std::uint32_t kEffects>
-WEFT_INLINE void move(const Acting& acting, const Place& at, float* half_velocity, const Body& own,
-                      Vec3 reaction, const Block& block, Index lane) {
+WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
+  if (waiting.own == nullptr) return;
   const Kick& kick = acting.kick;
-  const Vec w = load(block.inverse_mass + lane);
-  const Vec3 against = w * reaction;
+  const Body own = load_body(waiting.own, s);
+  const Vec w = load(waiting.inverse_mass);
+  const Vec3 against = w * load3(waiting.reaction, kLanes);
   Vec3 acceleration = acting.outside.has_gravity ? splat3(acting.outside.gravity) - against : -against;
   if (acting.outside.has_wind) acceleration = acceleration + splat3(kick.alpha_wind);
   Vec3 change = splat(kick.gain) * acceleration;
-  const bool predicts = half_velocity != nullptr;
-  const Vec3 before = predicts && !kick.begins_frame ? load_first(half_velocity, at.strides) : own.v;
+  float* const half = waiting.half_velocity;
+  const Vec3 before = half != nullptr && !kick.begins_frame ? load_first(half, s) : own.v;
   if constexpr (kEffects & kAir) change = change - splat(kick.loss) * before;
   Touched next;
   next.v = before + change;
   next.x = own.x + splat(kick.drift) * next.v;
   if constexpr (kEffects & kContact)
     if (kick.drift > 0.0f) next = touch(acting.outside, kick, own.x, next);
-  if (predicts) {
-    store_first(half_velocity, at.strides, next.v);
+  if (half != nullptr) {
+    store_first(half, s, next.v);
     Vec3 further = splat(kick.predict_gain) * acceleration;
     if constexpr (kEffects & kAir) further = further - splat(kick.predict_loss) * next.v;
     next.v = next.v + further;
   }
-  if (block.has_fixed) {
+  if (*waiting.has_fixed) {
     const Mask fixed = w == Vec{};
     next.x = select(fixed, own.x, next.x);
     next.v = select(fixed, own.v, next.v);
   }
-  store_first(at.own, at.strides, next.x);
-  store_last(at.own, at.strides, next.v);
+  store_first(waiting.own, s, next.x);
+  store_last(waiting.own, s, next.v);
 }
 
 enum class Part { two_above, above, own };
 
-/// One row: the two above a band only leave what reaches into it.
+/// One row: the two above a band only leave what reaches into it. A vector moves amid the springs of the next
+/// one, which nothing there depends on: its dozen operations each wait for the one before, and by themselves
+/// leave the processor idle. Nobody reads it meanwhile.
 template <std::uint32_t kEffects, Part kPart>
-WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j) {
+WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Waiting& waiting) {
   const Sheet& sheet = sweep.sheet;
   FromLeft left;
   Place at{sweep.rows[j] + kColumns, sweep.rows[j + 1] + kColumns, sweep.rows[j + 2] + kColumns,
@@ -208,7 +220,13 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j) {
     for (Index lane = 0; lane < kColumns; lane += kLanes) {
       const Body own = load_body(at.own, at.strides);
       if constexpr (kPart == Part::own) {
-        move<kEffects>(acting, at, half, own, reaction_of<kEffects>(at, own, block, lane, left), block, lane);
+        const Vec3 reaction = reaction_of<kEffects>(at, own, block, lane, left,
+                                                    [&] { move<kEffects>(acting, waiting, at.strides); });
+        store3(waiting.reaction, kLanes, reaction);
+        waiting.own = at.own;
+        waiting.half_velocity = half;
+        waiting.inverse_mass = block.inverse_mass + lane;
+        waiting.has_fixed = &block.has_fixed;
         if (half != nullptr) half += kLanes;
       } else {
         if constexpr (kPart == Part::above) springs_down<kEffects>(at, own, block, lane, left);
@@ -226,12 +244,15 @@ template <std::uint32_t kEffects>
 void sweep_rows(const Sweep& sweep) {
   constexpr std::uint32_t kSprings = kEffects & (kDamping | kShear | kTwoApart);
   const Acting acting{sweep.outside, *sweep.kick};
+  Waiting waiting;
   __builtin_memset(sweep.carried, 0, 6 * sweep.sheet.stride * sizeof(float));
   if (sweep.first > 0) {
-    if constexpr (kSprings & kTwoApart) sweep_row<kSprings, Part::two_above>(sweep, acting, sweep.first - 2);
-    sweep_row<kSprings, Part::above>(sweep, acting, sweep.first - 1);
+    if constexpr (kSprings & kTwoApart)
+      sweep_row<kSprings, Part::two_above>(sweep, acting, sweep.first - 2, waiting);
+    sweep_row<kSprings, Part::above>(sweep, acting, sweep.first - 1, waiting);
   }
-  for (Index j = sweep.first; j < sweep.last; ++j) sweep_row<kEffects, Part::own>(sweep, acting, j);
+  for (Index j = sweep.first; j < sweep.last; ++j) sweep_row<kEffects, Part::own>(sweep, acting, j, waiting);
+  move<kEffects>(acting, waiting, Strides(sweep.sheet.stride));
 }
 
 /// Sixteen independent chains of 1/√x hide the latency; their sum keeps them alive.
