@@ -39,16 +39,21 @@ void look_for_bodies(real3 x0, real3 x1) {
   tight = q < reach_links.z ? tight : true;
 }
 
-// Integers alone, so that it does not matter who comes first.
+// Integers alone, so that it does not matter who comes first; one invocation speaks for its subgroup.
 void tell_reach() {
+  if (!(reached || tight)) return;
   uint groups = (params.nx + kReachGroup - 1u) / kReachGroup;
   if (reached) {
-    atomicMax(reach_groups[kReachSolids], groups);
-    atomicMax(reach_groups[kReachMeshes], groups);
+    if (subgroupElect()) {  // not joined by &&: one of those that are near is to speak
+      atomicMax(reach_groups[kReachSolids], groups);
+      atomicMax(reach_groups[kReachMeshes], groups);
+    }
   }
-  if (!asks_links || !(reached || tight)) return;  // what touches a body is moved once more
-  atomicMax(reach_groups[kReachLinks], ((params.nx + 1u) / 2u + kReachGroup - 1u) / kReachGroup);
-  atomicMax(reach_groups[kReachLinksDown], groups);
+  if (!asks_links) return;
+  if (subgroupElect()) {  // what a body touches is moved once more, so that being near one counts here, too
+    atomicMax(reach_groups[kReachLinks], ((params.nx + 1u) / 2u + kReachGroup - 1u) / kReachGroup);
+    atomicMax(reach_groups[kReachLinksDown], groups);
+  }
 }
 #else
 #define hold_reach(row)
