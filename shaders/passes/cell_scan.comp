@@ -36,7 +36,7 @@ void main() {
     cells[b] = total;
   }
   if (lane == 0u) {
-    cells[buckets] = params.nx * params.ny;
+    cells[buckets] = sums[gl_WorkGroupSize.x - 1u];
     collision_state[kListsBuilt] += 1u;
     collision_state[kListsArmed] = 1u;
     collision_state[kPairsListed] = collision_state[kContactGroups] = 0u;  // until a list has an entry

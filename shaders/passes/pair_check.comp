@@ -48,7 +48,8 @@ void mark_contacts(Cells c) {
 }
 
 void mark_stale(Cells c) {
-  atomicOr(collision_state[kListGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
+  atomicOr(collision_state[kListGroups], ((c.nx + 1u) / 2u + kCollisionGroup - 1u) / kCollisionGroup);
+  atomicOr(collision_state[kNearGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
   atomicOr(collision_state[kScanGroups], 1u);
 }
 
@@ -57,11 +58,10 @@ void main() {
   Own own;
   if (!own_particle(c, own)) return;
   uint p = own.particle;
-  cells[p] = 0u;
-  if (p + c.count <= collision[0].bucket_mask + 1u) cells[p + c.count] = 0u;
+  if (p <= collision[0].bucket_mask + 1u) cells[p] = 0u;
   bool first = row_index == 0u;
   if (p == 0u) {
-    collision_state[kLongestEdge] = 0u;
+    collision_state[kLongestEdge] = collision_state[kWidestPatch] = 0u;
     if (first) collision_state[kSmallestGap] = kInfinity;
     if (first) mark_stale(c);
     mark_contacts(c);

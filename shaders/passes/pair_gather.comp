@@ -2,54 +2,72 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../shared/pass.glsl"
 
-// Lists, for every particle, those that could come nearer than their limit before the lists are made anew:
-// the members of the eight cells nearest to it that are within limit + skin. A cell is twice as wide as
-// that, so that eight suffice; a bucket may hold particles of several cells, and each is taken only where
-// its own cell is asked for, so none is taken twice.
-// Each invocation writes its own particle's list: no races.
-// Source: Green 2008, Particle simulation using CUDA; Verlet 1967.
+// Lists, for every particle whose patch has something near, those that could come nearer than their limit
+// before the lists are made anew: the particles of the patches in the cells round it that are within limit
+// + skin, but for its eight neighbours on the cloth, which are in the springs' charge. A bucket may hold
+// patches of several cells, and each is taken only where its own cell is asked for, so none is taken twice.
+// Keeps the positions. Each invocation writes its own particle's list: no races. Source: Green 2008,
+// Particle simulation using CUDA; Verlet 1967.
 
 #include "../shared/cells.glsl"
 READS(real4, position)
 READS(uint, cells)
 READS(uint, cell_members)
+READS(real4, patches)
+READS(uint, patch_listed)
 UPDATES(uint, collision_state)
+WRITES(real4, built_position)
 WRITES(uint, pair_count)
 WRITES(uint, pair_places)
 
 layout(local_size_x = kCollisionGroup) in;
 
-// How many entries the particle's list has found so far; those beyond the room are counted only.
-uint gather_from(Cells c, ivec3 cell, Own own, real3 x, real reach_max, uint found) {
-  uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
-  for (uint slot = cells[bucket]; slot < end; ++slot) {
-    uint place = cell_members[slot], other = particle_at(c, place);
-    real3 there = position[other].xyz;
-    precise real3 d = there - x;
-    real q = squared_length(d);
-    if (!(q < reach_max) || place == own.place || cell_of(c, there, other) != cell) continue;
-    if (!(q < collision[0].limits[limit_row(c, own, place)].z)) continue;
-    if (found < collision[0].capacity) pair_places[found * c.count + own.particle] = place;
-    ++found;
-  }
-  return found;
+#include "../shared/patches.glsl"
+#include "../shared/patch_boxes.glsl"
+#include "../shared/search_reach.glsl"
+#include "../shared/beside.glsl"
+
+void add(Cells c, Own own, real3 x, uvec2 other, inout uint found) {
+  uint place = other.y << c.column_bits | other.x;
+  precise real3 d = position[other.y * c.nx + other.x].xyz - x;
+  if (!(squared_length(d) < collision[0].limits[limit_row(c, own, place)].z)) return;
+  if (found < collision[0].capacity) pair_places[found * c.count + own.particle] = place;
+  ++found;
+}
+
+void add_patch(Cells c, Patches grid, Own own, real3 x, uint patch_index, inout uint found) {
+  uvec2 low = corner_of(grid, patch_index), high = far_corner_of(c, low);
+  for (uint j = low.y; j <= high.y; ++j)
+    for (uint i = low.x; i <= high.x; ++i)
+      if (!beside(own, uvec2(i, j))) add(c, own, x, uvec2(i, j), found);
+}
+
+void search_around(Cells c, Patches grid, Own own, real3 x, inout uint found) {
+  CellRange range = cells_around(c, x, x, collision[0].pair_reach_m);
+  for (int k = range.first.z; k <= range.last.z; ++k)
+    for (int j = range.first.y; j <= range.last.y; ++j)
+      for (int i = range.first.x; i <= range.last.x; ++i) {
+        ivec3 cell = ivec3(i, j, k);
+        uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
+        for (uint slot = cells[bucket]; slot < end; ++slot) {
+          uint other = cell_members[slot];
+          if (box_reaches(other, x, collision[0].pair_reach_m) && cell_of_patch(c, other) == cell)
+            add_patch(c, grid, own, x, other, found);
+        }
+      }
 }
 
 void main() {
-  if (collision_state[kListGroups] == 0u) return;
+  if (collision_state[kNearGroups] == 0u) return;
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  real3 x = position[own.particle].xyz;
-  real reach_max = collision[0].limits[c.limit_last].z;
+  real4 here = position[own.particle];
+  built_position[own.particle] = here;
   uint found = 0u;
-  if (covered(c, x)) {
-    ivec3 corner = corner_cell(c, x);
-    for (uint k = 0u; k < 8u; ++k) {
-      ivec3 cell = corner + ivec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
-      found = gather_from(c, cell, own, x, reach_max, found);
-    }
-  }
+  Patches grid = patches_of(c);
+  if (covered(c, here.xyz) && patch_listed[patch_with(grid, own)] != 0u)
+    search_around(c, grid, own, here.xyz, found);
   uint kept = min(found, collision[0].capacity);
   pair_count[own.particle] = kept;
   if (kept > 0u) {

@@ -87,7 +87,7 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  if (own.particle == 0u) collision_state[kContactGroups] = 0u;  // done: nothing is due
+  if (own.particle == 0u) collision_state[kTouchGroups] = 0u;  // done: nothing is due
   real4 x = near_position[own.particle];
   uint touching = touch_weight[own.particle];
   if (touching == 0u || x.w == 0.0) return;

@@ -6,7 +6,8 @@
 // anew. Of the corners of two primitives that are within reach, one pair is within search_squared of each
 // other, and the nearest such pair finds them: the particle whose turn it is owns the entry, so that none is
 // listed twice. Primitives that share a corner are not listed. Where the cloth round a particle is nearly
-// flat, neighbours are passed over: docs/effects.md "Self-collision" says why nothing is missed. Each
+// flat, neighbours are passed over, and all others where its patch has nothing else near: docs/effects.md
+// "Self-collision" says why nothing is missed. Each
 // invocation writes its own particle's list: no races. Source: Bridson, Fedkiw and Anderson 2002, Robust
 // treatment of collisions, contact and friction for cloth animation, section 6 (which pairs); the grid: Green
 // 2008.
@@ -16,6 +17,8 @@
 READS(real4, position)
 READS(uint, cells)
 READS(uint, cell_members)
+READS(real4, patches)
+READS(uint, patch_listed)
 UPDATES(uint, collision_state)
 WRITES(uint, surface_count)
 WRITES(uint, surface_pairs)
@@ -24,6 +27,11 @@ WRITES(uint, surface_bound)
 layout(local_size_x = kCollisionGroup) in;
 
 #include "../shared/surface.glsl"
+#include "../shared/nearly_flat.glsl"
+#include "../shared/patches.glsl"
+#include "../shared/patch_boxes.glsl"
+#include "../shared/search_reach.glsl"
+#include "../shared/beside.glsl"
 
 real3 at(Cells c, ivec2 ij) { return position[uint(ij.y) * c.nx + uint(ij.x)].xyz; }
 
@@ -42,33 +50,27 @@ bool stands_for(real ab, uint place_a, uint place_b, real ef, uint place_e, uint
 
 uint place_of(Cells c, ivec2 ij) { return uint(ij.y) << c.column_bits | uint(ij.x); }
 
-// The least factor by which lengths of the patch within two cells of ij are stretched, times a cell; less
-// than 0 where that is not known.
-real patch_stretch(Cells c, ivec2 ij) {
-  int top = ij.y - int(own_row(uint(ij.y))), bottom = top + int(rows_of_cloth()) - 1;  // of its own cloth
-  ivec2 low = max(ij - 2, ivec2(0, top)), high = min(ij + 2, ivec2(int(c.nx) - 1, bottom));
-  ivec2 right = ivec2(min(ij.x + 1, int(c.nx) - 1), ij.y), below = ivec2(ij.x, min(ij.y + 1, bottom));
-  precise real3 along = at(c, right) - at(c, right - ivec2(1, 0));
-  precise real3 down = at(c, below) - at(c, below - ivec2(0, 1));
-  real off_i = 0.0, off_j = 0.0;
-  for (int j = low.y; j <= high.y; ++j)
-    for (int i = low.x; i <= high.x; ++i) {
-      real3 x = at(c, ivec2(i, j));
-      if (i < high.x) {
-        precise real3 off = (at(c, ivec2(i + 1, j)) - x) - along;
-        off_i = max(off_i, squared_length(off));
-      }
-      if (j < high.y) {
-        precise real3 off = (at(c, ivec2(i, j + 1)) - x) - down;
-        off_j = max(off_j, squared_length(off));
-      }
-    }
-  real p = dot3(along, along), s = dot3(down, down), m = dot3(along, down);
-  precise real middle = 0.5 * (p + s), half_off = 0.5 * (p - s);
-  precise real root = sqrt(half_off * half_off + m * m);
-  precise real least = sqrt(max(middle - root, 0.0)), off = sqrt(off_i + off_j);
-  precise real stretch = least - off;
-  return stretch;
+// Whether the patch within two cells of the particle is so nearly flat that its primitives are out of reach.
+bool flat_at(Cells c, Own own) {
+  uint top = own.j - own_row(own.j), bottom = top + rows_of_cloth() - 1u;  // of its own cloth
+  uvec2 low = uvec2(max(own.i, 2u) - 2u, max(own.j, top + 2u) - 2u);
+  uvec2 high = min(uvec2(own.i, own.j) + 2u, uvec2(c.nx - 1u, bottom));
+  uvec2 to = min(uvec2(own.i, own.j) + 1u, uvec2(c.nx - 1u, bottom));
+  precise real3 along = at(c, ivec2(to.x, own.j)) - at(c, ivec2(to.x - 1u, own.j));
+  precise real3 down = at(c, ivec2(own.i, to.y)) - at(c, ivec2(own.i, to.y - 1u));
+  return nearly_flat(c, low, high, along, down, collision[0].flat_min_m);
+}
+
+// Whether that holds of the primitives at the particle and at one beside it.
+bool flat_between(Cells c, Own own, uvec2 other) {
+  uint top = own.j - own_row(own.j), bottom = top + rows_of_cloth() - 1u;  // of their cloth
+  uvec2 here = uvec2(own.i, own.j), low = min(here, other), high = max(here, other);
+  uvec2 to = min(low + 1u, uvec2(c.nx - 1u, bottom));
+  precise real3 along = at(c, ivec2(to.x, low.y)) - at(c, ivec2(to.x - 1u, low.y));
+  precise real3 down = at(c, ivec2(low.x, to.y)) - at(c, ivec2(low.x, to.y - 1u));
+  uvec2 first = uvec2(max(low.x, 1u) - 1u, max(low.y, top + 1u) - 1u);
+  uvec2 last = min(high + 1u, uvec2(c.nx - 1u, bottom));
+  return nearly_flat(c, first, last, along, down, collision[0].flat_min_m);
 }
 
 void keep(Cells c, Own own, uint code, uint place, inout uint found) {
@@ -146,41 +148,54 @@ void look_at_waiting(Cells c, Own own, real3 x, uint count, inout uint found) {
   }
 }
 
-// What the particle finds in one cell of the grid, after `seen` others; what comes after the first `done`
-// waits.
-uint search_cell(Cells c, ivec3 cell, Own own, real3 x, real search, bool flat_here, uint done, uint seen) {
-  uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
-  for (uint slot = cells[bucket]; slot < end; ++slot) {
-    uint place = cell_members[slot];
-    uvec2 other = column_and_row(c, place);
-    uint particle = other.y * c.nx + other.x;
-    real3 y = position[particle].xyz;
-    ivec2 off = abs(ivec2(other) - ivec2(own.i, own.j));
-    bool beside = off.x <= 1 && off.y <= 1 && same_cloth(other.y, own.j);
-    if (place == own.place || (flat_here && beside)) continue;
-    if (!(squared_between(x, y) < search) || cell_of(c, y, particle) != cell) continue;
-    if (seen >= done && seen - done < kWaitingMax) waiting[seen - done] = place;
-    ++seen;
-  }
-  return seen;
+// One more that is near enough; what comes after the first `done` waits.
+void add_waiting(uint place, uint done, inout uint seen) {
+  if (seen >= done && seen - done < kWaitingMax) waiting[seen - done] = place;
+  ++seen;
+}
+
+void search_patch(Cells c, Patches grid, Own own, real3 x, uint patch_index, real search, uint done,
+                  inout uint seen) {
+  uvec2 low = corner_of(grid, patch_index), high = far_corner_of(c, low);
+  for (uint j = low.y; j <= high.y; ++j)
+    for (uint i = low.x; i <= high.x; ++i) {
+      if (beside(own, uvec2(i, j))) continue;
+      if (squared_between(x, at(c, ivec2(i, j))) < search) add_waiting(j << c.column_bits | i, done, seen);
+    }
+}
+
+void search_cells(Cells c, Patches grid, Own own, real3 x, CellRange range, real search, uint done,
+                  inout uint seen) {
+  real distance_m = sqrt(search) * 1.0009765625;
+  for (int k = range.first.z; k <= range.last.z; ++k)
+    for (int j = range.first.y; j <= range.last.y; ++j)
+      for (int i = range.first.x; i <= range.last.x; ++i) {
+        ivec3 cell = ivec3(i, j, k);
+        uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
+        for (uint slot = cells[bucket]; slot < end; ++slot) {
+          uint other = cell_members[slot];
+          if (box_reaches(other, x, distance_m) && cell_of_patch(c, other) == cell)
+            search_patch(c, grid, own, x, other, search, done, seen);
+        }
+      }
 }
 
 void search_around(Cells c, Own own, real3 x, inout uint found) {
-  real longest = real(uintBitsToFloat(collision_state[kLongestEdge]));
-  precise real search = (collision[0].surface_reach_squared_m2 + 0.5 * longest) * 1.0009765625;
-  precise real far = sqrt(search) * c.inverse_cell_1_m;
-  precise real3 middle = x * c.inverse_cell_1_m;
-  precise real3 low = floor(middle - far), high = floor(middle + far);
-  ivec3 first = ivec3(low), last = ivec3(min(high, low + real(kCellsAcrossMax - 1)));
-  if (high != real3(last)) atomicAdd(collision_state[kPairsDropped], 1u);
-  bool flat_here = patch_stretch(c, ivec2(own.i, own.j)) >= collision[0].flat_min_m;
+  Patches grid = patches_of(c);
+  real search = surface_search_squared();
+  CellRange range = cells_around(c, x, x, sqrt(search) * 1.0009765625);
+  bool flat_here = flat_at(c, own), listed = patch_listed[patch_with(grid, own)] != 0u;
+  if (listed && !range.whole) atomicAdd(collision_state[kPairsDropped], 1u);
   uint done = 0u, seen;
   do {
     seen = 0u;
-    for (int k = first.z; k <= last.z; ++k)
-      for (int j = first.y; j <= last.y; ++j)
-        for (int i = first.x; i <= last.x; ++i)
-          seen = search_cell(c, ivec3(i, j, k), own, x, search, flat_here, done, seen);
+    for (uint k = 0u; k < kBesideCount && !flat_here; ++k) {
+      if (!has_beside(c, own, k)) continue;
+      uvec2 other = beside_at(own, k);
+      if (squared_between(x, at(c, ivec2(other))) < search && !flat_between(c, own, other))
+        add_waiting(other.y << c.column_bits | other.x, done, seen);
+    }
+    if (listed) search_cells(c, grid, own, x, range, search, done, seen);
     look_at_waiting(c, own, x, min(seen - done, kWaitingMax), found);
     done += kWaitingMax;
   } while (seen > done);
@@ -190,7 +205,9 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  if (own.particle == 0u) collision_state[kListGroups] = collision_state[kScanGroups] = 0u;
+  if (own.particle == 0u) {
+    collision_state[kListGroups] = collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;  // done
+  }
   real3 x = position[own.particle].xyz;
   uint found = 0u;
   if (covered(c, x)) search_around(c, own, x, found);

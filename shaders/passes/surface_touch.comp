@@ -26,16 +26,20 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
+  if (own.particle == 0u) collision_state[kContactGroups] = 0u;  // done: nothing is due
   uint entries = surface_count[own.particle], smallest = kInfinity;
+  bool any = false;
   for (uint k = 0u; k < entries; ++k) {
     Touching it = touching_of(c, own.particle, surface_pairs[k * c.count + own.particle]);
     uint bits = floatBitsToUint(float(sqrt(it.q)));
     bool touches = it.q < collision[0].surface_limit_squared_m2;
+    any = any || touches;
     for (uint m = 0u; m < 4u; ++m) {
       atomicMin(surface_bound[it.particle[m]], bits);
       if (touches) atomicAdd(touch_weight[it.particle[m]], touch_units(abs(it.weight[m])));
     }
     smallest = min(smallest, bits);
   }
+  if (any) mark_touching(c);
   if (smallest < collision_state[kSmallestGap]) atomicMin(collision_state[kSmallestGap], smallest);
 }

@@ -11,6 +11,7 @@ READS(real4, position)
 READS(real4, velocity)
 READS(uint, pair_count)
 READS(uint, pair_places)
+UPDATES(uint, collision_state)
 WRITES(uint, touch_weight)
 WRITES(uint, surface_bound)
 WRITES(uint, surface_sums)
@@ -38,4 +39,5 @@ void main() {
     if (q < limit_max && q < collision[0].limits[limit_row(c, own, place)].y) touching += touch_units(1.0);
   }
   touch_weight[own.particle] = touching;
+  if (touching != 0u) mark_touching(c);
 }

@@ -25,9 +25,9 @@
   ROW(collision, 17, Collision, "self-collision: limits, grid and room (collision.h)")                 \
   ROW(collision_state, 18, uint, "whether the pair lists are stale; counts (collision.h)")             \
   ROW(built_position, 19, real4, "m, when the pair lists were made; w unused")                         \
-  ROW(cells, 20, uint, "grid: counts, then ends, then starts of the buckets, and the total")           \
-  ROW(cell_arrivals, 21, uint, "places bucket by bucket, as they came")                                \
-  ROW(cell_members, 22, uint, "places bucket by bucket, ascending")                                    \
+  ROW(cells, 20, uint, "grid: patches counted, then ends, then starts of buckets, and total")          \
+  ROW(cell_arrivals, 21, uint, "patches bucket by bucket, as they came")                               \
+  ROW(cell_members, 22, uint, "patches bucket by bucket, ascending")                                   \
   ROW(pair_count, 23, uint, "entries of a particle's list")                                            \
   ROW(pair_places, 24, uint, "lists: entry k of particle p at k * particles + p")                      \
   ROW(touch_weight, 25, uint, "weights of the contacts that a particle is in, added up (collision.h)") \
@@ -51,6 +51,8 @@
   ROW(surface_bound, 43, uint, "bits of the farthest a particle may go from near_position [m]")        \
   ROW(surface_sums, 44, uint, "pushes and kicks of surfaces, in whole quanta (collision.h)")           \
   ROW(carrier, 45, real4, "motion that all of the cloth shares: three rows (collision.h)")             \
-  ROW(reach_groups, 46, uint, "workgroups of contact with bodies: none where none is near (reach.h)")
+  ROW(reach_groups, 46, uint, "workgroups of contact with bodies: none where none is near (reach.h)")  \
+  ROW(patches, 47, real4, "boxes of 2 x 2 particles: low corner [m], 1 where nearly flat; high")       \
+  ROW(patch_listed, 48, uint, "1: a patch's particles may have others near than their neighbours")
 
 #endif

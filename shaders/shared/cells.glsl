@@ -57,6 +57,10 @@ real touching_in(uint units) {
   return sum;
 }
 
+// Says that something touches: contacts are to be computed. For passes that update collision_state.
+#define mark_touching(c) \
+  atomicOr(collision_state[kTouchGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup)
+
 // The speed at which contacts that overlap by `depth` are to part.
 real parting_speed(real depth) {
   precise real speed = min(max(depth, 0.0), collision[0].deep_m) * collision[0].recover_1_s;

@@ -29,28 +29,35 @@ WEFT_REAL_STRUCT(Collision) {
   real surface_limit_squared_m2;
   real surface_reach_squared_m2;  // nearer when the lists are made, and they are listed
   real roam_max_m;                // the farthest that a particle may be from where the lists were made
-  real flat_min_m;                // a patch of cloth that stretches lengths by no less has no pair in reach
-  real deep_m;                    // of what contacts overlap, what counts
-  real recover_1_s;               // they part with that much speed a metre of it
+  // Where distances are no less than this times those on the cloth, no neighbours are in reach.
+  real flat_min_m;
+  real deep_m;       // of what contacts overlap, what counts
+  real recover_1_s;  // they part with that much speed a metre of it
   real friction;
+  real pair_reach_m;    // of any pair of particles
+  real patch_flat_m;    // as flat_min_m, of two that are not beside each other
+  real patch_search_m;  // as long as the searches look no farther
 };
 #ifdef __cplusplus
 using Collision = CollisionOf<float>;
 #endif
 
-// Words of `collision_state`. The first six are the workgroups of two indirect dispatches (x, y, z): of the
-// passes over the cloth that make the lists anew, and of the scan. x = 0: the lists hold and nothing runs.
+// Words of `collision_state`. Workgroups of indirect dispatches (x, y, z), x = 0: nothing to do. The lists
+// are made anew by passes over patches, by the scan and by passes over the cloth.
 WEFT_CONST uint kListGroups = 0u;
 WEFT_CONST uint kScanGroups = 3u;
 WEFT_CONST uint kListsBuilt = 6u;     // how often the lists were made
 WEFT_CONST uint kPairsDropped = 7u;   // entries that found no room in a list, all times together
-WEFT_CONST uint kContactGroups = 8u;  // x, y, z of the passes that push apart; x = 0: nothing to do
+WEFT_CONST uint kContactGroups = 8u;  // x, y, z of the passes that look at what is listed
 WEFT_CONST uint kPairsListed = 11u;   // 1: some list has an entry
 WEFT_CONST uint kListsArmed = 12u;    // 1: lists were made since the host wrote the state
 WEFT_CONST uint kHeldBack = 13u;      // how often a particle's motion was cut, all times together
 WEFT_CONST uint kLongestEdge = 14u;   // bits of the longest edge's square [m²] in float
 WEFT_CONST uint kSmallestGap = 15u;   // bits of the smallest distance [m] of two surfaces in this frame
-WEFT_CONST uint kCollisionStateWords = 16u;
+WEFT_CONST uint kNearGroups = 16u;    // x, y, z of the passes over the cloth that make the lists
+WEFT_CONST uint kTouchGroups = 19u;   // x, y, z of the passes that push apart
+WEFT_CONST uint kWidestPatch = 22u;   // bits of the widest side of a patch's box [m] in float
+WEFT_CONST uint kCollisionStateWords = 23u;
 WEFT_CONST uint kCarrierSamples = 64u;  // particles whose motion stands for the cloth's
 WEFT_CONST uint kCarrierBuilt = 0u;     // rows of `carrier`: since the lists were made [m]
 WEFT_CONST uint kCarrierNear = 1u;      // since contacts were last looked at [m]

@@ -1,32 +1,110 @@
-// cell_count: how many particles each bucket of the grid holds, and the longest edge. Declaration and CPU
-// mirror.
+// cell_count: the box of each patch, how many patches each bucket of the grid holds, and the longest edge.
+// Declaration and CPU mirror.
+#include <atomic>
 #include <bit>
+#include <utility>
 
+#include "passes/parallel.h"
 #include "passes/passes.h"
-#include "passes/surface.h"
+#include "passes/patches.h"
 
 namespace weft {
 namespace {
+
+void raise_to(std::atomic<std::uint32_t>& most, std::uint32_t bits) {
+  std::uint32_t before = most;
+  while (before < bits && !most.compare_exchange_weak(before, bits)) {
+  }
+}
+
+template <class T>
+std::uint32_t bits_of(T value) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+template <class T>
+class PatchLook {
+ public:
+  using V = glm::vec<3, T>;
+  PatchLook(const CollisionView<T>& view, const PatchGrid& patches,
+            const std::vector<glm::vec<4, T>>& position)
+      : view_(view), patches_(patches), position_(position) {}
+
+  /// Writes the patch's box.
+  void look_at(std::uint32_t patch, glm::vec<4, T>* box) {
+    const PatchGrid::Block block = patches_.block(patch);
+    V low = at(block.i0, block.j0), high = low;
+    for (std::uint32_t j = block.j0; j <= block.j1; ++j)
+      for (std::uint32_t i = block.i0; i <= block.i1; ++i) {
+        const V x = at(i, j);
+        for (int axis = 0; axis < 3; ++axis) {
+          low[axis] = std::min(low[axis], x[axis]);
+          high[axis] = std::max(high[axis], x[axis]);
+        }
+        look_at_edges(view_.grid.index(i, j));
+      }
+    box[0] = glm::vec<4, T>(low, flat_around(patch, block) ? T(1) : T(0));
+    box[1] = glm::vec<4, T>(high, T(0));
+    const V wide = high - low;
+    if (view_.covered(box[0]) && view_.covered(box[1]))
+      widest_ = std::max(widest_, bits_of(std::max(std::max(wide.x, wide.y), wide.z)));
+  }
+
+  std::uint32_t longest() const { return longest_; }
+  std::uint32_t widest() const { return widest_; }
+
+ private:
+  V at(std::uint32_t i, std::uint32_t j) const { return place_in(position_, view_.grid.index(i, j)); }
+
+  void look_at_edges(std::uint32_t p) {
+    for (const std::size_t k : {0u, 1u, 2u})  // right, below, below to the left
+      if (const auto q = ring_particle(view_.grid, p, k))
+        longest_ = std::max(longest_, bits_of(squared_distance(position_[p], position_[*q])));
+  }
+
+  bool flat_around(std::uint32_t patch, const PatchGrid::Block& block) const {
+    const std::uint32_t right = std::max(block.i1, block.i0 == 0 ? 1u : block.i0),
+                        own_row = view_.grid.own_row(block.j0),
+                        below = own_row + 1 < view_.grid.ny ? block.j0 + 1 : block.j0;
+    const V along = at(right, block.j0) - at(right - 1, block.j0),
+            down = at(block.i0, below) - at(block.i0, below - 1);
+    return nearly_flat(view_.grid, position_, patches_.block(patch, 2), along, down, view_.patch_flat);
+  }
+
+  const CollisionView<T>& view_;
+  const PatchGrid& patches_;
+  const std::vector<glm::vec<4, T>>& position_;
+  std::uint32_t longest_ = 0, widest_ = 0;
+};
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   const CollisionView<T> view(context.model);
-  const auto& position = buffers[BufferId::position];
+  const PatchGrid patches(context.model.grid);
+  const auto& position = std::as_const(buffers)[BufferId::position];
+  auto& boxes = buffers[BufferId::patches];
+  boxes.resize(2 * std::size_t{patches.count()});
+  std::atomic<std::uint32_t> longest = 0, widest = 0;
+  parallel_rows(patches.rows(), 2 * std::uint64_t{view.grid.nx}, [&](std::uint32_t begin, std::uint32_t end) {
+    PatchLook<T> look(view, patches, position);
+    for (std::uint32_t p = begin * patches.nx(); p < end * patches.nx(); ++p)
+      look.look_at(p, &boxes[2 * std::size_t{p}]);
+    raise_to(longest, look.longest());
+    raise_to(widest, look.widest());
+  });
+  auto& state = buffers.words_of(BufferId::collision_state);
+  state[shared::kLongestEdge] = std::max(state[shared::kLongestEdge], longest.load());
+  state[shared::kWidestPatch] = std::max(state[shared::kWidestPatch], widest.load());
+  const PatchSearch<T> search(view, buffers);
   auto& cells = buffers.words_of(BufferId::cells);
-  for (std::uint32_t p = 0; p < position.size(); ++p) ++cells[view.bucket_of(view.cell_of(position[p], p))];
-  buffers[BufferId::built_position] = position;
-  std::uint32_t& longest = buffers.words_of(BufferId::collision_state)[shared::kLongestEdge];
-  for (std::uint32_t p = 0; p < position.size(); ++p)
-    for (const std::size_t k : {0u, 1u, 2u})  // right, below, below to the left
-      if (const auto q = ring_particle(context.model.grid, p, k))
-        longest = std::max(longest, std::bit_cast<std::uint32_t>(
-                                        static_cast<float>(squared_distance(position[p], position[*q]))));
+  for (std::uint32_t p = 0; p < patches.count(); ++p) ++cells[view.bucket_of(search.cell_of(p))];
 }
 
 }  // namespace
 
-const Pass cell_count = collision_pass("cell_count", "self-collision: particles in each bucket of the grid",
-                                       mirror<float>, mirror<double>, shared::kListGroups);
+const Pass cell_count =
+    list_pass("cell_count", "self-collision: boxes of patches, and how many each bucket of the grid holds",
+              mirror<float>, mirror<double>, shared::kListGroups, patch_domain);
 
 }  // namespace weft

@@ -1,21 +1,22 @@
-// cell_fill: every particle takes a slot of its bucket. Declaration and CPU mirror.
+// cell_fill: every patch takes a slot of its bucket. Declaration and CPU mirror.
 #include "passes/collision.h"
 #include "passes/passes.h"
+#include "passes/patches.h"
 
 namespace weft {
 namespace {
 
-/// From the last particle to the first, so that the slots of a bucket, counted down, ascend.
+/// From the last patch to the first, so that the slots of a bucket, counted down, ascend.
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   const CollisionView<T> view(context.model);
-  const auto& position = buffers[BufferId::position];
+  const std::uint32_t count = PatchGrid(context.model.grid).count();
+  const PatchSearch<T> search(view, buffers);
   auto& cells = buffers.words_of(BufferId::cells);
   auto& arrivals = buffers.words_of(BufferId::cell_arrivals);
-  arrivals.resize(position.size());
-  for (auto p = static_cast<std::uint32_t>(position.size()); p-- > 0;)
-    arrivals[--cells[view.bucket_of(view.cell_of(position[p], p))]] = view.place_of(p);
+  arrivals.resize(count);
+  for (std::uint32_t p = count; p-- > 0;) arrivals[--cells[view.bucket_of(search.cell_of(p))]] = p;
 }
 
 /// On the device the order within a bucket is that of arrival.
@@ -31,7 +32,7 @@ void settle_order(HostWords& buffers) {
 }  // namespace
 
 const Pass cell_fill =
-    collision_pass("cell_fill", "self-collision: particles into their buckets, as they come", mirror<float>,
-                   mirror<double>, shared::kListGroups, settle_order);
+    list_pass("cell_fill", "self-collision: patches into their buckets, as they come", mirror<float>,
+              mirror<double>, shared::kListGroups, patch_domain, settle_order);
 
 }  // namespace weft

@@ -8,11 +8,11 @@ namespace weft {
 namespace {
 
 template <class T>
-void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   auto& cells = buffers.words_of(BufferId::cells);
   std::partial_sum(cells.begin(), cells.end() - 1, cells.begin());
-  cells.back() = context.model.grid.count();
+  cells.back() = cells[cells.size() - 2];
   auto& state = buffers.words_of(BufferId::collision_state);
   ++state[shared::kListsBuilt];
   state[shared::kListsArmed] = 1;
@@ -24,14 +24,8 @@ Range domain(const Model& model) { return model.scene.self_collision ? Range{.x 
 
 }  // namespace
 
-const Pass cell_scan{
-    .name = "cell_scan",
-    .about = "self-collision: prefix sum, from counts to the ends of the buckets",
-    .domain = domain,
-    .mirror_f32 = mirror<float>,
-    .mirror_f64 = mirror<double>,
-    .interval = contact_interval,
-    .groups_word = shared::kScanGroups,
-};
+const Pass cell_scan =
+    list_pass("cell_scan", "self-collision: prefix sum, from counts to the ends of the buckets",
+              mirror<float>, mirror<double>, shared::kScanGroups, domain);
 
 }  // namespace weft

@@ -1,6 +1,7 @@
 // cell_sort: the members of each bucket in ascending order. Declaration and CPU mirror.
 #include "passes/collision.h"
 #include "passes/passes.h"
+#include "passes/patches.h"
 
 namespace weft {
 namespace {
@@ -17,7 +18,7 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass cell_sort = collision_pass("cell_sort", "self-collision: makes the fill stable", mirror<float>,
-                                      mirror<double>, shared::kListGroups);
+const Pass cell_sort = list_pass("cell_sort", "self-collision: makes the fill stable", mirror<float>,
+                                 mirror<double>, shared::kListGroups, patch_domain);
 
 }  // namespace weft

@@ -9,6 +9,7 @@
 #include "model/distance_grid.h"
 #include "model/motion.h"
 #include "model/solids.h"
+#include "passes/patches.h"
 
 namespace weft {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kRecoverShare = 0.25;  // of what contacts overlap, what they p
 constexpr double kStaleShare = 0.35;    // of the skin: the rest is for motion until the next look
 constexpr double kPileLayers = 20;  // that contacts hold, pressed to three quarters of the distance they keep
 constexpr std::uint32_t kPlaceBits = 26;
+constexpr double kPatchEdge = 1.1;  // of its length on the cloth: an edge of nearly flat patches
 
 /// Entries that a list needs where layers lie as densely as they can: discs of the cloth within reach, one
 /// layer a thickness; half as much again and 4, because contact is never that even.
@@ -62,6 +64,21 @@ double pile_time_s(const Model& model, const CollisionLayout& layout) {
   if (!model.scene.gravity) return 1.0;
   const double weight_m_s2 = kPileLayers * glm::length(model.scene.gravity->acceleration_m_s2);
   return std::sqrt(kRecoverShare * layout.deep_m / (4.0 * std::max(weight_m_s2, 1e-3)));
+}
+
+/// How far the searches look, and how flat the cloth must be for them to find nothing.
+void lay_out_searches(const Model& model, CollisionLayout& layout) {
+  const double edge_m = kPatchEdge * std::numbers::sqrt2 * model.grid.spacing_m;
+  layout.pair_reach_m = kRoundingRoom * (layout.thickness_m + layout.skin_m);
+  layout.patch_search_m =
+      kRoundingRoom *
+      std::max(std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m), layout.pair_reach_m);
+  const double searched_m = std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m);
+  layout.patch_flat_m = searched_m / 2.0;  // the nearest that are not beside each other are two cells apart
+  const auto limits = pair_limits(model, layout);
+  for (std::uint32_t m = 4; m <= layout.limit_last; ++m)
+    layout.patch_flat_m = std::max(layout.patch_flat_m, (limits[m].limit + layout.skin_m) / std::sqrt(m));
+  layout.patch_flat_m *= kRoundingRoom * kRoundingRoom;
 }
 
 }  // namespace
@@ -122,9 +139,10 @@ CollisionLayout collision_layout(const Model& model) {
                 "{}: [self_collision] with {} x {} particles: it takes at most 8192 x 8192 (lower "
                 "cloth.resolution)",
                 model.scene.source.empty() ? "scene" : model.scene.source, model.grid.nx, model.grid.rows());
-  layout.buckets = std::bit_ceil(model.grid.count());
+  layout.buckets = std::bit_ceil(PatchGrid(model.grid).count());
   layout.recover_1_s = kRecoverShare / look_time_s(model, layout);
   layout.capacity = list_capacity(thickness_m / a, layout.skin_m / a, model.grid.count());
+  lay_out_searches(model, layout);
   return layout;
 }
 
@@ -138,6 +156,14 @@ std::uint32_t contact_interval(const Model& model, double substep_s) {
   const double time_s = look_time_s(model, layout);
   const double substeps = std::clamp(std::floor(time_s / substep_s), 1.0, double{kIntervalMax});
   return std::bit_floor(static_cast<std::uint32_t>(substeps));
+}
+
+std::uint32_t list_interval(const Model& model, double substep_s) {
+  const CollisionLayout layout = collision_layout(model);
+  const double time_s = (layout.roam_max_m - layout.stale_m) / design_speed_m_s(model);
+  const double looks = std::floor(time_s / (substep_s * contact_interval(model, substep_s)));
+  const auto times = static_cast<std::uint32_t>(std::clamp(looks, 1.0, double{kIntervalMax}));
+  return std::bit_floor(times) * contact_interval(model, substep_s);
 }
 
 std::uint32_t contact_substeps(const Model& model) {
@@ -183,6 +209,9 @@ shared::CollisionOf<T> make_collision(const Model& model) {
   collision.deep_m = view.deep;
   collision.recover_1_s = view.recover;
   collision.friction = view.friction;
+  collision.pair_reach_m = view.pair_reach;
+  collision.patch_flat_m = view.patch_flat;
+  collision.patch_search_m = view.patch_search;
   return collision;
 }
 
@@ -192,6 +221,12 @@ template shared::CollisionOf<double> make_collision(const Model&);
 Range collision_domain(const Model& model) {
   if (!model.scene.self_collision) return {};
   return whole_cloth(model);
+}
+
+Range patch_domain(const Model& model) {
+  if (!model.scene.self_collision) return {};
+  const PatchGrid patches(model.grid);
+  return {.x = patches.nx(), .y = patches.rows()};
 }
 
 }  // namespace weft

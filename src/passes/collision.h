@@ -30,6 +30,12 @@ struct CollisionLayout {
   double deep_m;              ///< of what contacts overlap, what counts
   double recover_1_s;         ///< they part with that much speed a metre of it
   std::uint32_t surface_capacity;  ///< entries a particle's list of triangles and edges has room for
+  double pair_reach_m;             ///< nearer when the lists are made, and any pair may be listed
+  /// Where distances are at least so many metres a cell on the cloth, particles that are not beside each
+  /// other are farther apart than patch_search_m, and than their own limit and skin.
+  double patch_flat_m;
+  double patch_search_m;  ///< as far as surfaces are searched where no edge is longer than kPatchEdge times a
+                          ///< cell's
 };
 
 /// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth, or its particles' places
@@ -51,6 +57,10 @@ double look_time_s(const Model& model, const CollisionLayout& layout);
 /// most 16.
 std::uint32_t contact_interval(const Model& model, double substep_s);
 
+/// Every how many substeps of that length the lists can be made anew: contact_interval or some times as many,
+/// as many as no particle that moves at the design speed leaves the lists' room in.
+std::uint32_t list_interval(const Model& model, double substep_s);
+
 /// The fewest substeps of a frame with which, at the design speed, a particle moves by at most half the
 /// surfaces' limit in one; 1 without [self_collision].
 std::uint32_t contact_substeps(const Model& model);
@@ -64,20 +74,34 @@ Range collision_domain(const Model& model);
 
 /// A pass over all particles that takes its workgroups from a word of collision_state: none where there is
 /// nothing to do.
-/// @param settle_order  as Pass::settle_order
 constexpr Pass collision_pass(std::string_view name, std::string_view about,
                               decltype(Pass::mirror_f32) mirror_f32, decltype(Pass::mirror_f64) mirror_f64,
-                              std::uint32_t groups_word,
-                              decltype(Pass::settle_order) settle_order = nullptr) {
+                              std::uint32_t groups_word) {
   return {.name = name,
           .about = about,
           .domain = collision_domain,
           .mirror_f32 = mirror_f32,
           .mirror_f64 = mirror_f64,
           .interval = contact_interval,
-          .groups_word = groups_word,
-          .settle_order = settle_order};
+          .groups_word = groups_word};
 }
+
+/// One of those that make the lists.
+/// @param domain        what a dispatch of it covers
+/// @param settle_order  as Pass::settle_order
+constexpr Pass list_pass(std::string_view name, std::string_view about, decltype(Pass::mirror_f32) mirror_f32,
+                         decltype(Pass::mirror_f64) mirror_f64, std::uint32_t groups_word,
+                         decltype(Pass::domain) domain = collision_domain,
+                         decltype(Pass::settle_order) settle_order = nullptr) {
+  Pass pass = collision_pass(name, about, mirror_f32, mirror_f64, groups_word);
+  pass.domain = domain;
+  pass.interval = list_interval;
+  pass.settle_order = settle_order;
+  return pass;
+}
+
+/// What bounds on distances are multiplied by, so that rounding of what they are compared with is nothing.
+inline constexpr double kRoundingRoom = 1.001;
 
 /// A pair's limit as the passes read it.
 template <class T>
@@ -97,6 +121,7 @@ struct CollisionView {
   std::vector<PairLimit<T>> limits;
   T inverse_cell, moved_squared_max;
   T surface_limit, surface_limit_squared, surface_reach_squared, roam_max, flat_min, deep, recover, friction;
+  T pair_reach, patch_flat, patch_search;
 
   explicit CollisionView(const Model& model)
       : grid(model.grid), layout(collision_layout(model)), limits(layout.limit_last + 1) {
@@ -111,10 +136,13 @@ struct CollisionView {
     surface_limit_squared = static_cast<T>(layout.surface_limit_m * layout.surface_limit_m);
     surface_reach_squared = static_cast<T>(layout.surface_reach_m * layout.surface_reach_m);
     roam_max = static_cast<T>(layout.roam_max_m);
-    flat_min = static_cast<T>(layout.surface_reach_m * std::numbers::sqrt2);
+    flat_min = static_cast<T>(layout.surface_reach_m * std::numbers::sqrt2 * kRoundingRoom);
     deep = static_cast<T>(layout.deep_m);
     recover = static_cast<T>(layout.recover_1_s);
     friction = static_cast<T>(model.scene.self_collision->friction);
+    pair_reach = static_cast<T>(layout.pair_reach_m);
+    patch_flat = static_cast<T>(layout.patch_flat_m);
+    patch_search = static_cast<T>(layout.patch_search_m);
   }
 
   std::uint32_t place_of(std::uint32_t particle) const {
@@ -185,9 +213,14 @@ T parting_speed(const CollisionView<T>& view, T depth) {
   return std::min(std::max(depth, T(0)), view.deep) * view.recover;
 }
 
-/// Whether the lists are being made anew: what the passes between pair_check and pair_gather ask first.
+/// Whether patches are to be looked at: the lists are stale.
 inline bool lists_stale(const HostWords& buffers) {
   return buffers.words_of(BufferId::collision_state)[shared::kListGroups] != 0;
+}
+
+/// Whether lists are being made anew: what the passes from cell_count to surface_gather ask first.
+inline bool lists_in_making(const HostWords& buffers) {
+  return buffers.words_of(BufferId::collision_state)[shared::kNearGroups] != 0;
 }
 
 /// Says that some list has an entry: contacts are to be looked at.
@@ -197,7 +230,18 @@ inline void mark_listed(const Grid& grid, HostWords& buffers) {
   state[shared::kContactGroups] = (grid.nx + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
 }
 
-/// Whether contacts are due: what the passes from touch_weight to self_contact ask first.
+/// Says that something touches: contacts are to be computed.
+inline void mark_touching(const Grid& grid, HostWords& buffers) {
+  buffers.words_of(BufferId::collision_state)[shared::kTouchGroups] =
+      (grid.nx + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
+}
+
+/// Whether something touches: what surface_contact and self_contact ask first.
+inline bool touching_somewhere(const HostWords& buffers) {
+  return buffers.words_of(BufferId::collision_state)[shared::kTouchGroups] != 0;
+}
+
+/// Whether what is listed is to be looked at: what touch_weight and surface_touch ask first.
 inline bool contacts_due(const HostWords& buffers) {
   return buffers.words_of(BufferId::collision_state)[shared::kContactGroups] != 0;
 }

@@ -69,7 +69,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& state = buffers.words_of(BufferId::collision_state);
   const bool first = context.row_index == 0;
   bool stale = first;
-  state[shared::kLongestEdge] = 0;
+  state[shared::kLongestEdge] = state[shared::kWidestPatch] = 0;
   if (first) state[shared::kSmallestGap] = shared::kInfinity;
   if (state[shared::kListsArmed] != 0) {
     buffers[BufferId::near_position].resize(count);
@@ -79,7 +79,11 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   }
   if (state[shared::kPairsListed] != 0) mark_listed(context.model.grid, buffers);
   if (!stale) return;
-  state[shared::kListGroups] = (view.grid.nx + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
+  const auto groups = [](std::uint32_t items) {
+    return (items + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
+  };
+  state[shared::kListGroups] = groups((view.grid.nx + 1) / 2);
+  state[shared::kNearGroups] = groups(view.grid.nx);
   state[shared::kScanGroups] = 1;
 }
 

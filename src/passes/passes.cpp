@@ -48,6 +48,7 @@ std::span<const Pass* const> passes() {
                                       &cell_scan,
                                       &cell_fill,
                                       &cell_sort,
+                                      &patch_near,
                                       &pair_gather,
                                       &surface_gather,
                                       &touch_weight,

@@ -48,6 +48,7 @@ extern const Pass cell_count;       ///< particles of each bucket of the grid
 extern const Pass cell_scan;        ///< counts to the ends of the buckets
 extern const Pass cell_fill;        ///< particles into the buckets
 extern const Pass cell_sort;        ///< in ascending order
+extern const Pass patch_near;       ///< which patches of the cloth may have another near
 extern const Pass pair_gather;      ///< lists of pairs within limit and skin
 extern const Pass surface_gather;   ///< lists of near triangles and edges
 extern const Pass touch_weight;     ///< pairs nearer than their limit

@@ -81,7 +81,7 @@ class Response {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
-  if (!contacts_due(buffers)) return;
+  if (!touching_somewhere(buffers)) return;
   const CollisionView<T> view(context.model);
   const Grid& grid = context.model.grid;
   auto& velocity = buffers[BufferId::velocity];
@@ -90,13 +90,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p)
       if (response.moves(p)) response.apply(p, velocity[p]);
   });
-  buffers.words_of(BufferId::collision_state)[shared::kContactGroups] = 0;
+  buffers.words_of(BufferId::collision_state)[shared::kTouchGroups] = 0;
 }
 
 }  // namespace
 
 const Pass self_contact =
     collision_pass("self_contact", "self-collision: gives particles what their contacts do to them",
-                   mirror<float>, mirror<double>, shared::kContactGroups);
+                   mirror<float>, mirror<double>, shared::kTouchGroups);
 
 }  // namespace weft

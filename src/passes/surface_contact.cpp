@@ -91,7 +91,7 @@ class SurfaceResponse {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
-  if (!contacts_due(buffers)) return;
+  if (!touching_somewhere(buffers)) return;
   const CollisionView<T> view(context.model);
   SurfaceResponse<T> response(view, buffers);
   for_each_surface_pair(view, buffers, [&](const SurfacePair<T>& pair) {
@@ -103,6 +103,6 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 const Pass surface_contact =
     collision_pass("surface_contact", "self-collision: pushes near triangles and edges apart", mirror<float>,
-                   mirror<double>, shared::kContactGroups);
+                   mirror<double>, shared::kTouchGroups);
 
 }  // namespace weft

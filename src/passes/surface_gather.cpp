@@ -1,12 +1,12 @@
 // surface_gather: the triangles near each particle and the pairs of edges near each other. Declaration and
 // CPU mirror.
 #include <atomic>
-#include <bit>
 #include <tuple>
 #include <utility>
 
 #include "passes/parallel.h"
 #include "passes/passes.h"
+#include "passes/patches.h"
 #include "passes/surface.h"
 
 namespace weft {
@@ -16,67 +16,55 @@ namespace {
 template <class T>
 class SurfaceSearch {
  public:
-  SurfaceSearch(const CollisionView<T>& view, const HostBuffers<T>& buffers)
+  SurfaceSearch(const CollisionView<T>& view, const PatchGrid& patches, const HostBuffers<T>& buffers)
       : view_(view),
+        patches_(patches),
         position_(buffers[BufferId::position]),
-        cells_(buffers.words_of(BufferId::cells)),
-        members_(buffers.words_of(BufferId::cell_members)) {
-    const std::uint32_t bits = buffers.words_of(BufferId::collision_state)[shared::kLongestEdge];
-    const T longest = static_cast<T>(std::bit_cast<float>(bits));
-    search_ = (view.surface_reach_squared + T(0.5) * longest) * static_cast<T>(1.0009765625);
-  }
+        listed_(buffers.words_of(BufferId::patch_listed)),
+        search_(view, buffers) {}
 
   /// Calls keep(code, place) for each entry of p's list and returns whether nothing was out of its sight.
   template <class Keep>
   bool run(std::uint32_t p, Keep&& keep) const {
-    const T far = std::sqrt(search_) * view_.inverse_cell;
-    typename CollisionView<T>::Cell first{}, last{};
-    bool all = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const T middle = position_[p][axis] * view_.inverse_cell;
-      const T low = std::floor(middle - far), high = std::floor(middle + far);
-      const auto at = static_cast<std::size_t>(axis);
-      first[at] = static_cast<std::int32_t>(low);
-      last[at] = static_cast<std::int32_t>(std::min(high, low + T(shared::kCellsAcrossMax - 1)));
-      all &= high == static_cast<T>(last[at]);
-    }
-    const bool flat = stretch_around(p) >= view_.flat_min;
-    for (std::int32_t z = first[2]; z <= last[2]; ++z)
-      for (std::int32_t y = first[1]; y <= last[1]; ++y)
-        for (std::int32_t x = first[0]; x <= last[0]; ++x) search_cell({x, y, z}, p, flat, keep);
-    return all;
+    const auto look_at = [&](std::uint32_t q) {
+      if (squared_distance(position_[p], position_[q]) < search_.surface_squared()) add(p, q, keep);
+    };
+    if (!flat_at(p))
+      for (std::uint32_t k = 0; k < 8; ++k)
+        if (const auto q = beside_at(view_.grid, p, k))
+          if (!flat_between(p, *q)) look_at(*q);
+    if (listed_[patches_.with(p)] == 0) return true;
+    return search_.particles_around(patches_, p, place_in(position_, p), search_.surface_distance(), look_at);
   }
 
  private:
-  using Cell = typename CollisionView<T>::Cell;
   using V = glm::vec<3, T>;
 
   V at(std::uint32_t i, std::uint32_t j) const { return place_in(position_, view_.grid.index(i, j)); }
 
-  T stretch_around(std::uint32_t p) const {
+  /// Whether the patch within two cells of p is so nearly flat that its primitives are out of reach.
+  bool flat_at(std::uint32_t p) const {
     const Grid& g = view_.grid;
     const std::uint32_t i = p % g.nx, j = p / g.nx;
     const std::uint32_t top = j - g.own_row(j), bottom = top + g.ny - 1;  // of its own cloth
     const std::uint32_t right = std::min(i + 1, g.nx - 1), below = std::min(j + 1, bottom);
     const V along = at(right, j) - at(right - 1, j), down = at(i, below) - at(i, below - 1);
-    T off_i = 0, off_j = 0;
-    const std::uint32_t i_end = std::min(i + 2, g.nx - 1), j_end = std::min(j + 2, bottom);
-    for (std::uint32_t y = j < top + 2 ? top : j - 2; y <= j_end; ++y)
-      for (std::uint32_t x = i < 2 ? 0 : i - 2; x <= i_end; ++x) {
-        const V i_edge = x < i_end ? (at(x + 1, y) - at(x, y)) - along : V(0),
-                j_edge = y < j_end ? (at(x, y + 1) - at(x, y)) - down : V(0);
-        off_i = std::max(off_i, dot3(i_edge, i_edge));
-        off_j = std::max(off_j, dot3(j_edge, j_edge));
-      }
-    const T a = dot3(along, along), b = dot3(down, down), m = dot3(along, down);
-    const T middle = T(0.5) * (a + b), half = T(0.5) * (a - b);
-    const T root = std::sqrt(half * half + m * m);
-    return std::sqrt(std::max(middle - root, T(0))) - std::sqrt(off_i + off_j);
+    const PatchGrid::Block block{std::max(i, 2u) - 2, std::max(j, top + 2) - 2, std::min(i + 2, g.nx - 1),
+                                 std::min(j + 2, bottom)};
+    return nearly_flat(g, position_, block, along, down, view_.flat_min);
   }
 
-  bool same_cloth(std::uint32_t a, std::uint32_t b) const {
-    const std::uint32_t particles = view_.grid.nx * view_.grid.ny;
-    return a / particles == b / particles;
+  /// Whether that holds of the primitives at two particles beside each other.
+  bool flat_between(std::uint32_t p, std::uint32_t q) const {
+    const Grid& g = view_.grid;
+    const std::uint32_t top = p / g.nx - g.own_row(p / g.nx), bottom = top + g.ny - 1;  // of their cloth
+    const auto [i, i_end] = std::minmax({p % g.nx, q % g.nx});
+    const auto [j, j_end] = std::minmax({p / g.nx, q / g.nx});
+    const std::uint32_t right = std::min(i + 1, g.nx - 1), below = std::min(j + 1, bottom);
+    const V along = at(right, j) - at(right - 1, j), down = at(i, below) - at(i, below - 1);
+    const PatchGrid::Block block{std::max(i, 1u) - 1, std::max(j, top + 1) - 1, std::min(i_end + 1, g.nx - 1),
+                                 std::min(j_end + 1, bottom)};
+    return nearly_flat(g, position_, block, along, down, view_.flat_min);
   }
 
   /// What orders pairs of corners: distance, then places.
@@ -90,18 +78,10 @@ class SurfaceSearch {
   }
 
   template <class Keep>
-  void search_cell(const Cell& cell, std::uint32_t p, bool flat, Keep&& keep) const {
-    const std::uint32_t bucket = view_.bucket_of(cell), nx = view_.grid.nx;
-    const auto near = [](std::uint32_t a, std::uint32_t b) { return (a > b ? a - b : b - a) <= 1; };
-    for (std::uint32_t slot = cells_[bucket]; slot < cells_[bucket + 1]; ++slot) {
-      const std::uint32_t q = view_.particle_at(members_[slot]);
-      if (q == p || (flat && near(p % nx, q % nx) && near(p / nx, q / nx) && same_cloth(p, q))) continue;
-      if (!(squared_distance(position_[p], position_[q]) < search_)) continue;
-      if (view_.cell_of(position_[q], q) != cell) continue;
-      add_triangles(p, q, keep);
-      const bool same = (view_.place_of(p) % 2) == (members_[slot] % 2);
-      if (same == (p < q)) add_edges(p, q, keep);
-    }
+  void add(std::uint32_t p, std::uint32_t q, Keep&& keep) const {
+    add_triangles(p, q, keep);
+    const bool same = (view_.place_of(p) % 2) == (view_.place_of(q) % 2);
+    if (same == (p < q)) add_edges(p, q, keep);
   }
 
   template <class Keep>
@@ -130,14 +110,15 @@ class SurfaceSearch {
   }
 
   const CollisionView<T>& view_;
+  const PatchGrid& patches_;
   const std::vector<glm::vec<4, T>>& position_;
-  const std::vector<std::uint32_t>&cells_, &members_;
-  T search_;
+  const std::vector<std::uint32_t>& listed_;
+  PatchSearch<T> search_;
 };
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
-  if (!lists_stale(buffers)) return;
+  if (!lists_in_making(buffers)) return;
   const CollisionView<T> view(context.model);
   const Grid& grid = context.model.grid;
   const std::size_t count = grid.count();
@@ -145,7 +126,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& entries = buffers.words_of(BufferId::surface_pairs);
   counts.resize(count);
   entries.resize(count * view.layout.surface_capacity);
-  const SurfaceSearch<T> search(view, buffers);
+  const PatchGrid patches(grid);
+  const SurfaceSearch<T> search(view, patches, buffers);
   std::atomic<std::uint32_t> dropped = 0, listed = 0;
   parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
@@ -164,14 +146,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   buffers.words_of(BufferId::surface_bound).assign(count, shared::kInfinity);
   auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kPairsDropped] += dropped;
-  state[shared::kListGroups] = state[shared::kScanGroups] = 0;
+  state[shared::kListGroups] = state[shared::kNearGroups] = state[shared::kScanGroups] = 0;
   if (listed != 0) mark_listed(grid, buffers);
 }
 
 }  // namespace
 
-const Pass surface_gather =
-    collision_pass("surface_gather", "self-collision: lists of near triangles and edges", mirror<float>,
-                   mirror<double>, shared::kListGroups);
+const Pass surface_gather = list_pass("surface_gather", "self-collision: lists of near triangles and edges",
+                                      mirror<float>, mirror<double>, shared::kNearGroups);
 
 }  // namespace weft

@@ -6,6 +6,8 @@
 
 #include "core/error.h"
 #include "model/distance_grid.h"
+#include "passes/coefficients.h"
+#include "passes/patches.h"
 #include "passes/reach.h"
 
 namespace weft {
@@ -35,13 +37,16 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
   return params;
 }
 
-std::vector<std::uint32_t> initial_collision_state(const Grid& grid) {
-  constexpr std::uint32_t kGroup = shared::kCollisionGroup;
+std::vector<std::uint32_t> initial_collision_state(const Model& model) {
   std::vector<std::uint32_t> state(shared::kCollisionStateWords, 0);
-  const std::array<std::uint32_t, 6> lists{(grid.nx + kGroup - 1) / kGroup, grid.rows(), 1, 1, 1, 1};
-  std::ranges::copy(lists, state.begin());
-  state[shared::kContactGroups + 1] = grid.rows();
-  state[shared::kContactGroups + 2] = 1;
+  const auto rows_of_groups = [&](std::uint32_t word, std::uint32_t rows) {
+    state[word + 1] = rows;
+    state[word + 2] = 1;
+  };
+  rows_of_groups(shared::kListGroups, patch_domain(model).y);
+  rows_of_groups(shared::kScanGroups, 1);
+  for (const std::uint32_t word : {shared::kNearGroups, shared::kContactGroups, shared::kTouchGroups})
+    rows_of_groups(word, model.grid.rows());
   state[shared::kSmallestGap] = shared::kInfinity;
   return state;
 }

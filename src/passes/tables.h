@@ -16,7 +16,7 @@ template <class T = float>
 shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2 = 0.0);
 
 /// The words of collision_state before the first substep: no lists are there yet.
-std::vector<std::uint32_t> initial_collision_state(const Grid& grid);
+std::vector<std::uint32_t> initial_collision_state(const Model& model);
 
 /// Replaces `table` with the rows of one frame, in the layout that shared/params.h documents.
 template <class T>

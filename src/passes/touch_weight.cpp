@@ -30,6 +30,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       }
     }
   });
+  if (std::ranges::any_of(touches, [](std::uint32_t n) { return n != 0; })) mark_touching(grid, buffers);
   buffers[BufferId::near_position] = position;
   buffers[BufferId::near_velocity] = std::as_const(buffers)[BufferId::velocity];
   buffers.words_of(BufferId::surface_bound).assign(grid.count(), shared::kInfinity);

@@ -8,6 +8,7 @@
 #include "passes/collision.h"
 #include "passes/mesh_grids.h"
 #include "passes/passes.h"
+#include "passes/patches.h"
 #include "passes/reach.h"
 #include "passes/tables.h"
 #include "passes/tearing.h"
@@ -36,6 +37,10 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::surface_pairs:
       return std::uint64_t{collision_layout(model).surface_capacity} * model.grid.count();
     case BufferId::carrier: return shared::kCarrierRows;
+    case BufferId::patches: return 2 * patch_domain(model).items();
+    case BufferId::cell_arrivals:
+    case BufferId::cell_members:
+    case BufferId::patch_listed: return patch_domain(model).items();
     case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
@@ -66,21 +71,22 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
   static constexpr std::array kPairCheck = {params,          position,       velocity, collision,
                                             collision_state, built_position, cells,    near_position,
                                             surface_bound,   carrier};
-  static constexpr std::array kCellCount = {params,          position,       collision,
-                                            collision_state, built_position, cells};
+  static constexpr std::array kCellCount = {params, position, collision, collision_state, cells, patches};
   static constexpr std::array kCellScan = {params, collision, collision_state, cells};
-  static constexpr std::array kCellFill = {params,          position, collision,
-                                           collision_state, cells,    cell_arrivals};
-  static constexpr std::array kCellSort = {params, position,      collision,   collision_state,
-                                           cells,  cell_arrivals, cell_members};
-  static constexpr std::array kPairGather = {params, position,     collision,  collision_state,
-                                             cells,  cell_members, pair_count, pair_places};
-  static constexpr std::array kSurfaceGather = {params,          position,      collision,
-                                                collision_state, cells,         cell_members,
-                                                surface_count,   surface_pairs, surface_bound};
-  static constexpr std::array kTouchCount = {params,        position,      velocity,     collision,
-                                             pair_count,    pair_places,   touch_weight, near_position,
-                                             near_velocity, surface_bound, surface_sums};
+  static constexpr std::array kCellFill = {params, collision, collision_state, cells, cell_arrivals, patches};
+  static constexpr std::array kCellSort = {params,  collision,     collision_state, cells,
+                                           patches, cell_arrivals, cell_members};
+  static constexpr std::array kPatchNear = {params,       collision, collision_state, cells,
+                                            cell_members, patches,   patch_listed};
+  static constexpr std::array kPairGather = {params,         position, collision,    collision_state,
+                                             built_position, cells,    cell_members, pair_count,
+                                             pair_places,    patches,  patch_listed};
+  static constexpr std::array kSurfaceGather = {params,        position,     collision,     collision_state,
+                                                cells,         cell_members, surface_count, surface_pairs,
+                                                surface_bound, patches,      patch_listed};
+  static constexpr std::array kTouchCount = {params,          position,      velocity,      collision,
+                                             collision_state, pair_count,    pair_places,   touch_weight,
+                                             near_position,   near_velocity, surface_bound, surface_sums};
   static constexpr std::array kSurfaceTouch = {params,        collision,     collision_state, touch_weight,
                                                near_position, surface_count, surface_pairs,   surface_bound};
   static constexpr std::array kSurfaceContact = {params,        collision,     touch_weight,  near_position,
@@ -90,6 +96,7 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
                                               near_velocity, surface_sums};
   if (&pass == &carry) return kCarry;
   if (&pass == &pair_check) return kPairCheck;
+  if (&pass == &patch_near) return kPatchNear;
   if (&pass == &cell_count) return kCellCount;
   if (&pass == &cell_scan) return kCellScan;
   if (&pass == &cell_fill) return kCellFill;
@@ -200,7 +207,7 @@ void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers)
       buffers[buffer.id].assign(element_count(buffer.id, model, plan.row_count()), glm::vec<4, T>(T(0)));
   }
   auto& state = buffers.words_of(BufferId::collision_state);
-  if (!state.empty()) state = initial_collision_state(model.grid);
+  if (!state.empty()) state = initial_collision_state(model);
   auto& reach = buffers.words_of(BufferId::reach_groups);
   if (!reach.empty()) reach = initial_reach_groups(model.grid, plan.reaching.links);
 }

@@ -110,7 +110,7 @@ void write_groups(GpuBuffers& buffers, const Model& model, const Plan& plan) {
   const auto write = [&](BufferId id, const std::vector<std::uint32_t>& words) {
     if (buffers.has(id)) buffers.at(id).write(std::as_bytes(std::span(words)));
   };
-  write(BufferId::collision_state, initial_collision_state(model.grid));
+  write(BufferId::collision_state, initial_collision_state(model));
   write(BufferId::reach_groups, initial_reach_groups(model.grid, plan.reaching.links));
 }
 

@@ -233,9 +233,10 @@ const char* const kSelfCollision =
 TEST(Plan, has_self_collision_s_passes_and_bytes_only_where_the_scene_asks) {
   const Plan with = plan_of(kSelfCollision),
              without = plan_of("[cloth]\nresolution = 8\n[solver]\nsubsteps = 50\n");
-  const std::vector<const Pass*> own = {&carry,        &pair_check,    &cell_count,      &cell_scan,
-                                        &cell_fill,    &cell_sort,     &pair_gather,     &surface_gather,
-                                        &touch_weight, &surface_touch, &surface_contact, &self_contact};
+  const std::vector<const Pass*> own = {&carry,          &pair_check,   &cell_count,    &cell_scan,
+                                        &cell_fill,      &cell_sort,    &patch_near,    &pair_gather,
+                                        &surface_gather, &touch_weight, &surface_touch, &surface_contact,
+                                        &self_contact};
   for (const PlanStep& step : without.steps)
     EXPECT_EQ(std::ranges::count(own, step.pass), 0) << step.pass->name;
   for (const PlanBuffer& buffer : without.buffers)

@@ -198,7 +198,7 @@ TEST_F(SelfCollisionOnGpu, validates_every_pass_with_layers_that_touch) {
   EXPECT_TRUE(touching);
   for (const char* pass :
        {"carry", "surface_gather", "surface_touch", "surface_contact", "pair_check", "cell_count",
-        "cell_scan", "cell_fill", "cell_sort", "pair_gather", "touch_weight", "self_contact"})
+        "cell_scan", "cell_fill", "cell_sort", "patch_near", "pair_gather", "touch_weight", "self_contact"})
     EXPECT_TRUE(checks.contains(pass)) << pass;
 }
 

@@ -1,0 +1,56 @@
+// Patches: blocks of 2 x 2 particles of one cloth. They are what the grid holds, and only the particles of
+// those that have another near look for more than their neighbours. docs/float-form.md "Patches". The
+// including pass includes cells.glsl first.
+
+struct Patches {
+  uint nx, ny, rows;  // of one cloth; of all
+};
+
+Patches patches_of(Cells c) {
+  uint ny = (rows_of_cloth() + 1u) / 2u;
+  return Patches((c.nx + 1u) / 2u, ny, c.ny / rows_of_cloth() * ny);
+}
+
+// Where this invocation's patch is.
+struct OwnPatch {
+  uint x, y, patch_index;
+  uint first_row;   // of its cloth
+  uvec2 low, last;  // its first particle, and the last of the cloth, within the cloth
+};
+
+bool own_patch(Cells c, Patches grid, out OwnPatch own) {
+  own.x = gl_GlobalInvocationID.x;
+  own.y = gl_GlobalInvocationID.y;
+  own.patch_index = own.y * grid.nx + own.x;
+  uint cloth = own.y / grid.ny;
+  own.first_row = cloth * rows_of_cloth();
+  own.low = 2u * uvec2(own.x, own.y - cloth * grid.ny);
+  own.last = uvec2(c.nx, rows_of_cloth()) - 1u;
+  return own.x < grid.nx && own.y < grid.rows;
+}
+
+// The patch that a particle is in.
+uint patch_with(Patches grid, Own own) {
+  uint j = own_row(own.j);
+  return ((own.j - j) / rows_of_cloth() * grid.ny + j / 2u) * grid.nx + own.i / 2u;
+}
+
+// The cell that a box's middle is in; one of its own where the grid does not cover the box.
+ivec3 cell_of_box(Cells c, real3 low, real3 high, uint patch_index) {
+  if (!covered(c, low) || !covered(c, high)) return ivec3(int(patch_index), 0x40000000, 0x40000000);
+  precise real3 middle = 0.5 * (low + high);
+  precise real3 scaled = floor(middle * c.inverse_cell_1_m);
+  return ivec3(scaled);
+}
+
+// The first particle of a patch: column and row.
+uvec2 corner_of(Patches grid, uint patch_index) {
+  uint x = patch_index % grid.nx, y = patch_index / grid.nx, cloth = y / grid.ny;
+  return uvec2(2u * x, cloth * rows_of_cloth() + 2u * (y - cloth * grid.ny));
+}
+
+// The last particle of the patch whose first is `low`.
+uvec2 far_corner_of(Cells c, uvec2 low) {
+  uint last_row = (low.y / rows_of_cloth() + 1u) * rows_of_cloth() - 1u;
+  return min(low + 1u, uvec2(c.nx - 1u, last_row));
+}

@@ -1,0 +1,190 @@
+// Patches: blocks of 2 x 2 particles of one cloth, which self-collision's grid holds. What the mirrors of the
+// passes that make lists share. Operation by operation as docs/float-form.md "Patches".
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "passes/collision.h"
+#include "passes/surface.h"
+
+namespace weft {
+
+/// Where the patches of a scene are.
+class PatchGrid {
+ public:
+  explicit PatchGrid(const Grid& grid) : grid_(grid), nx_((grid.nx + 1) / 2), ny_((grid.ny + 1) / 2) {}
+
+  std::uint32_t nx() const { return nx_; }
+  std::uint32_t rows() const { return ny_ * (grid_.rows() / grid_.ny); }  ///< of all cloths
+  std::uint32_t count() const { return nx_ * rows(); }
+
+  /// Columns and rows of particles, both ends included.
+  struct Block {
+    std::uint32_t i0, j0, i1, j1;
+  };
+  /// The particles of a patch and as many more on every side as its cloth has of them.
+  Block block(std::uint32_t patch, std::uint32_t more = 0) const {
+    const std::uint32_t row = patch / nx_, top = row / ny_ * grid_.ny, i = 2 * (patch % nx_),
+                        j = top + 2 * (row % ny_);
+    return {std::max(i, more) - more, std::max(j, top + more) - more, std::min(i + 1 + more, grid_.nx - 1),
+            std::min(j + 1 + more, top + grid_.ny - 1)};
+  }
+
+  std::uint32_t with(std::uint32_t particle) const {
+    const std::uint32_t row = particle / grid_.nx, own = grid_.own_row(row);
+    return ((row - own) / grid_.ny * ny_ + own / 2) * nx_ + particle % grid_.nx / 2;
+  }
+
+  /// Whether two patches are the same or beside each other on one cloth.
+  bool beside(std::uint32_t a, std::uint32_t b) const {
+    const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
+    return near(a % nx_, b % nx_) && near(a / nx_, b / nx_) && a / nx_ / ny_ == b / nx_ / ny_;
+  }
+
+ private:
+  const Grid& grid_;
+  std::uint32_t nx_, ny_;
+};
+
+/// One invocation a patch.
+Range patch_domain(const Model& model);
+
+/// The eight particles round one on its cloth, row by row; nothing outside.
+inline std::optional<std::uint32_t> beside_at(const Grid& grid, std::uint32_t particle, std::uint32_t k) {
+  const std::uint32_t place = k < 4 ? k : k + 1, row = particle / grid.nx, own = grid.own_row(row);
+  const std::int64_t i = std::int64_t{particle % grid.nx} + place % 3 - 1,
+                     j = std::int64_t{own} + place / 3 - 1;
+  if (i < 0 || j < 0 || i >= std::int64_t{grid.nx} || j >= std::int64_t{grid.ny}) return std::nullopt;
+  return grid.index(static_cast<std::uint32_t>(i), row - own + static_cast<std::uint32_t>(j));
+}
+
+/// Whether they are the same or neighbours on one cloth.
+inline bool beside(const Grid& grid, std::uint32_t a, std::uint32_t b) {
+  const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
+  const std::uint32_t particles = grid.nx * grid.ny;
+  return near(a % grid.nx, b % grid.nx) && near(a / grid.nx, b / grid.nx) && a / particles == b / particles;
+}
+
+/// Whether a piece of the cloth is so little bent that points on it are at least `stretch` times as far apart
+/// as on the cloth, in cells: every triangle takes every direction to one that goes on by as much where a
+/// triangle with the edges along and down takes it.
+template <class T>
+bool nearly_flat(const Grid& grid, const std::vector<glm::vec<4, T>>& position, const PatchGrid::Block& block,
+                 const glm::vec<3, T>& along, const glm::vec<3, T>& down, T stretch) {
+  using V = glm::vec<3, T>;
+  const T p = dot3(along, along), s = dot3(down, down), m = dot3(along, down);
+  const T middle = T(0.5) * (p + s), half = T(0.5) * (p - s);
+  const T least = stretch * std::sqrt(middle + std::sqrt(half * half + m * m));
+  const auto goes_along = [&](const V& edge_i, const V& edge_j) {
+    const T a = dot3(along, edge_i) - least, b = dot3(down, edge_j) - least;
+    const T mixed = T(0.5) * (dot3(along, edge_j) + dot3(down, edge_i));
+    return a >= 0 && b >= 0 && a * b >= mixed * mixed;
+  };
+  for (std::uint32_t j = block.j0; j < block.j1; ++j)
+    for (std::uint32_t i = block.i0; i < block.i1; ++i) {
+      const V here = place_in(position, grid.index(i, j)), right = place_in(position, grid.index(i + 1, j)),
+              below = place_in(position, grid.index(i, j + 1)),
+              across = place_in(position, grid.index(i + 1, j + 1));
+      if (!goes_along(right - here, below - here) || !goes_along(across - below, across - right))
+        return false;
+    }
+  return true;
+}
+
+/// What the searches read: boxes of patches in a grid, and how far to look.
+template <class T>
+class PatchSearch {
+ public:
+  using V = glm::vec<3, T>;
+  using Cell = typename CollisionView<T>::Cell;
+
+  PatchSearch(const CollisionView<T>& view, const HostBuffers<T>& buffers)
+      : view_(view),
+        boxes_(buffers[BufferId::patches]),
+        cells_(buffers.words_of(BufferId::cells)),
+        members_(buffers.words_of(BufferId::cell_members)) {
+    const auto& state = buffers.words_of(BufferId::collision_state);
+    const auto known = [&](std::uint32_t word) { return static_cast<T>(std::bit_cast<float>(state[word])); };
+    surface_squared_ = (view.surface_reach_squared + T(0.5) * known(shared::kLongestEdge)) * kRoom;
+    search_ = std::max(std::sqrt(surface_squared_), view.pair_reach) * kRoom;
+    widest_ = known(shared::kWidestPatch);
+  }
+
+  T surface_squared() const { return surface_squared_; }  ///< between corners of two surfaces within reach
+  T surface_distance() const { return std::sqrt(surface_squared_) * kRoom; }
+  T distance() const { return search_; }  ///< of particles that some list may have
+
+  V low(std::uint32_t patch) const { return V(boxes_[2 * std::size_t{patch}]); }
+  V high(std::uint32_t patch) const { return V(boxes_[2 * std::size_t{patch} + 1]); }
+
+  static Cell cell_of_box(const CollisionView<T>& view, const V& low, const V& high, std::uint32_t patch) {
+    if (!view.covered({low, T(0)}) || !view.covered({high, T(0)}))
+      return {static_cast<std::int32_t>(patch), 0x40000000, 0x40000000};
+    return view.rounded_down({T(0.5) * (low + high), T(0)}, T(0));
+  }
+  Cell cell_of(std::uint32_t patch) const { return cell_of_box(view_, low(patch), high(patch), patch); }
+
+  /// The largest gap between two boxes along an axis; less than 0 where they overlap.
+  static T gap(const V& low_a, const V& high_a, const V& low_b, const V& high_b) {
+    const V before = low_b - high_a, after = low_a - high_b;
+    T most = std::max(before.x, after.x);
+    for (int axis = 1; axis < 3; ++axis) most = std::max(most, std::max(before[axis], after[axis]));
+    return most;
+  }
+
+  /// Calls visit(patch) for each member of the buckets of the cells in which patches' middles are that have a
+  /// particle within `search` of the box; the same may come twice. It ends when visit returns true.
+  /// @param own_cell_only  only where the bucket is asked for by the patch's own cell: none comes twice
+  /// @return whether those were all cells
+  template <class Visit>
+  bool around(const V& low, const V& high, T search, bool own_cell_only, Visit&& visit) const {
+    const T far = search + kHalfRoom * widest_;
+    const T far_cells = std::min(far * view_.inverse_cell, static_cast<T>(shared::kCellsFromOriginMax));
+    Cell first{}, last{};
+    bool all = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<std::size_t>(axis);
+      const T begin = std::floor(low[axis] * view_.inverse_cell - far_cells),
+              end = std::floor(high[axis] * view_.inverse_cell + far_cells);
+      const T cut = std::min(end, begin + T(shared::kCellsAcrossMax - 1));
+      first[at] = static_cast<std::int32_t>(begin);
+      last[at] = static_cast<std::int32_t>(cut);
+      all &= cut == end;
+    }
+    for (std::int32_t z = first[2]; z <= last[2]; ++z)
+      for (std::int32_t y = first[1]; y <= last[1]; ++y)
+        for (std::int32_t x = first[0]; x <= last[0]; ++x) {
+          const std::uint32_t bucket = view_.bucket_of({x, y, z});
+          for (std::uint32_t slot = cells_[bucket]; slot < cells_[bucket + 1]; ++slot)
+            if (!own_cell_only || cell_of(members_[slot]) == Cell{x, y, z})
+              if (visit(members_[slot])) return all;
+        }
+    return all;
+  }
+
+  /// Calls visit(q) for the particles of the patches that may have one within `search` of p, but for p and
+  /// its neighbours. @return as around()
+  template <class Visit>
+  bool particles_around(const PatchGrid& patches, std::uint32_t p, const V& x, T search,
+                        Visit&& visit) const {
+    return around(x, x, search, true, [&](std::uint32_t other) {
+      if (!(gap(x, x, low(other), high(other)) < search)) return false;
+      const PatchGrid::Block block = patches.block(other);
+      for (std::uint32_t j = block.j0; j <= block.j1; ++j)
+        for (std::uint32_t i = block.i0; i <= block.i1; ++i)
+          if (const std::uint32_t q = view_.grid.index(i, j); !beside(view_.grid, p, q)) visit(q);
+      return false;
+    });
+  }
+
+ private:
+  static constexpr T kRoom = static_cast<T>(1.0009765625), kHalfRoom = static_cast<T>(0.5009765625);
+
+  const CollisionView<T>& view_;
+  const std::vector<glm::vec<4, T>>& boxes_;
+  const std::vector<std::uint32_t>&cells_, &members_;
+  T surface_squared_, search_, widest_;
+};
+
+}  // namespace weft

@@ -1,0 +1,205 @@
+// The lists of self-collision hold what all pairs, tried one by one, say: neither the grid of patches nor the
+// tests that pass over what is nearly flat leave anything out, and nothing is listed twice.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+#include "passes/passes.h"
+#include "passes/patches.h"
+#include "passes/surface.h"
+#include "passes/tables.h"
+#include "plan/plan.h"
+#include "scenes.h"
+#include "solvers/solver.h"
+
+namespace weft::test {
+namespace {
+
+using Corners = std::vector<std::uint32_t>;      // ascending
+using Primitives = std::pair<Corners, Corners>;  // the first has no more corners
+using Listed = std::map<Primitives, int>;        // how often
+using Positions = std::vector<glm::vec<4, float>>;
+
+Corners sorted(Corners corners) {
+  std::ranges::sort(corners);
+  return corners;
+}
+
+Primitives primitives_of(const SurfacePair<float>& pair) {
+  const auto& p = pair.particle;
+  if (!pair.edges) return {{p[0]}, sorted({p[1], p[2], p[3]})};
+  const Corners a = sorted({p[0], p[1]}), b = sorted({p[2], p[3]});
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// Edges and triangles of the cloth, each once.
+std::set<Corners> mesh_of(const Grid& grid, std::size_t corners) {
+  std::set<Corners> found;
+  for (std::uint32_t p = 0; p < grid.count(); ++p)
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto b = ring_particle(grid, p, k), c = ring_particle(grid, p, k + 1);
+      if (corners == 2 && b) found.insert(sorted({p, *b}));
+      if (corners == 3 && b && c) found.insert(sorted({p, *b, *c}));
+    }
+  return found;
+}
+
+bool apart(const Corners& a, const Corners& b) {
+  return std::ranges::none_of(a, [&](std::uint32_t p) { return std::ranges::count(b, p) != 0; });
+}
+
+/// Calls visit(primitives, squared distance) for all that have no particle in common.
+template <class Visit>
+void each_by_each(const Grid& grid, const Positions& x, Visit&& visit) {
+  const auto triangles = mesh_of(grid, 3), edges = mesh_of(grid, 2);
+  for (std::uint32_t p = 0; p < grid.count(); ++p)
+    for (const Corners& t : triangles)
+      if (apart({p}, t)) visit({{p}, t}, particle_and_triangle<float>(x, {p, t[0], t[1], t[2]}).squared);
+  for (auto a = edges.begin(); a != edges.end(); ++a)
+    for (auto b = std::next(a); b != edges.end(); ++b)
+      if (apart(*a, *b))
+        visit({*a, *b}, edge_and_edge<float>(x, {(*a)[0], (*a)[1], (*b)[0], (*b)[1]}).squared);
+}
+
+struct Lists {
+  Listed surfaces;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  std::uint32_t dropped;
+  std::size_t patches_listed, patches;
+};
+
+/// What the mirrors list of a state.
+Lists lists_of(const Model& model, const State& state, Positions& x) {
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  HostBuffers<float> buffers;
+  size_buffers(plan, model, buffers);
+  load_state(model, state, buffers);
+  const KickDrift row{};
+  for (const Pass* pass : {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near,
+                           &pair_gather, &surface_gather}) {
+    const Constants constants = pass->constants(model);
+    pass->mirror_f32({.model = model, .constants = constants, .row = row}, buffers);
+  }
+  const CollisionView<float> view(model);
+  x = buffers[BufferId::position];
+  buffers[BufferId::near_position] = x;
+  const auto& asked = buffers.words_of(BufferId::patch_listed);
+  Lists lists{{},
+              {},
+              buffers.words_of(BufferId::collision_state)[shared::kPairsDropped],
+              static_cast<std::size_t>(std::ranges::count(asked, 1u)),
+              asked.size()};
+  for_each_surface_pair(view, buffers,
+                        [&](const SurfacePair<float>& pair) { ++lists.surfaces[primitives_of(pair)]; });
+  for (std::uint32_t p = 0; p < model.grid.count(); ++p)
+    for (std::size_t k = 0; k < buffers.words_of(BufferId::pair_count)[p]; ++k)
+      lists.pairs.insert(
+          {p, view.particle_at(buffers.words_of(BufferId::pair_places)[k * model.grid.count() + p])});
+  return lists;
+}
+
+/// Whether `listed` is right for a squared distance: within rounding of the reach both are.
+bool is_right(bool listed, float squared, float reach_squared) {
+  return listed ? squared < reach_squared * 1.0001f : squared > reach_squared * 0.9999f;
+}
+
+/// Where lists are full, what is in them must be right.
+/// @return whether none was
+bool expect_all_listed(const Model& model, const State& state, const std::string& name) {
+  Positions x;
+  const Lists lists = lists_of(model, state, x);
+  const CollisionView<float> view(model);
+  const bool room = lists.dropped == 0;
+  std::size_t wrong = 0;
+  each_by_each(model.grid, x, [&](const Primitives& pair, float squared) {
+    const auto at = lists.surfaces.find(pair);
+    const bool listed = at != lists.surfaces.end();
+    if (listed && at->second != 1) ++wrong;
+    if ((listed || room) && !is_right(listed, squared, view.surface_reach_squared)) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0u) << name << ": surfaces of " << lists.surfaces.size();
+  wrong = 0;
+  for (std::uint32_t a = 0; a < model.grid.count(); ++a)
+    for (std::uint32_t b = 0; b < model.grid.count(); ++b) {
+      if (beside(model.grid, a, b)) continue;
+      const bool listed = lists.pairs.contains({a, b});
+      if ((listed || room) && !is_right(listed, squared_distance(x[a], x[b]), view.limit(a, b).reach_squared))
+        ++wrong;
+    }
+  EXPECT_EQ(wrong, 0u) << name << ": pairs of " << lists.pairs.size();
+  return room;
+}
+
+Model crumpled_model(double thickness_cells, int cloths) {
+  std::string more;
+  for (int k = 1; k < cloths; ++k) more += "[[cloths]]\ncenter = [0.0, 0.0, 0.11]\n";
+  return build_model(parse_scene(fmt::format("[cloth]\nwidth = 1.3\nheight = 1.1\nresolution = 14\n{}"
+                                             "[self_collision]\nthickness = {}\n",
+                                             more, thickness_cells * 0.1),
+                                 "lists.toml")
+                         .scene);
+}
+
+/// The cloth rolled up along i by `turn` [rad] a cell, a tenth of a cell on a cell, so that it does not come
+/// back to where it was; with random noise, in cells.
+State rolled(const Model& model, double turn, double noise, std::uint64_t seed) {
+  State state = start_state(model);
+  std::mt19937_64 random(seed);
+  const double a = model.grid.spacing_m;
+  std::normal_distribution<double> normal(0.0, noise * a);
+  for (std::uint32_t j = 0; j < model.grid.rows(); ++j) {
+    glm::dvec2 at(0.0);
+    for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
+      glm::dvec3& x = state.position[model.grid.index(i, j)];
+      x = {at.x + normal(random), x.y + normal(random), x.z + at.y + normal(random)};
+      at += a * glm::dvec2(std::cos(turn * i) + 0.1, std::sin(turn * i));
+    }
+  }
+  return state;
+}
+
+// Flat, curved, rolled up, wrinkled and crushed; one cloth and two.
+TEST(SurfaceLists, HoldWhatAllPairsOneByOneSay) {
+  std::uint64_t seed = 1;
+  int whole = 0;
+  for (const int cloths : {1, 2})
+    for (const double thickness : {0.1, 0.9}) {
+      if (cloths == 2 && thickness < 0.5) continue;
+      const Model model = crumpled_model(thickness, cloths);
+      for (const double turn : {0.0, 0.2, 0.6, 1.1, 2.2})
+        for (const double noise : {0.0, 0.08, 0.25})
+          whole += expect_all_listed(
+              model, rolled(model, turn, noise, ++seed),
+              fmt::format("{} cloths, thickness {}, turn {}, noise {}", cloths, thickness, turn, noise));
+    }
+  EXPECT_GE(whole, 30) << "of 45 have room for all";
+}
+
+// As thick as several cells, where neighbours' neighbours are within reach already: one that is flat or
+// bends.
+TEST(SurfaceLists, HoldThePairsOfThickCloth) {
+  const Model model = crumpled_model(2.5, 1);
+  for (const double turn : {0.0, 0.2, 0.4})
+    for (const double noise : {0.0, 0.08})
+      EXPECT_TRUE(expect_all_listed(model, rolled(model, turn, noise, 5),
+                                    fmt::format("turn {}, noise {}", turn, noise)));
+}
+
+// What they pass over: nothing is searched in a cloth that is flat, or bends a little, and has nothing near.
+TEST(SurfaceLists, SearchNothingWhereTheClothIsNearlyFlat) {
+  const Model model = crumpled_model(0.1, 1);
+  Positions x;
+  for (const double turn : {0.0, 0.2}) {
+    const Lists lists = lists_of(model, rolled(model, turn, 0.01, 7), x);
+    EXPECT_EQ(lists.patches_listed, 0u) << turn;
+    EXPECT_TRUE(lists.surfaces.empty() && lists.pairs.empty());
+  }
+  EXPECT_EQ(lists_of(model, rolled(model, 2.2, 0.0, 7), x).patches_listed, 7u * 6u) << "all are near others";
+}
+
+}  // namespace
+}  // namespace weft::test
