@@ -25,6 +25,7 @@ WRITES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
 layout(push_constant) uniform Push { uint row_index, item; };
+layout(constant_id = 0) const uint rows = 1u;  // that an invocation marches down; the device's choice
 
 // Puts x back to within `most` of where the lists or contacts know it, and its velocity to as much of what it
 // was. `gone` is how far it is from there.
@@ -53,30 +54,26 @@ void mark_stale(Cells c) {
   atomicOr(collision_state[kScanGroups], 1u);
 }
 
-void main() {
-  Cells c = cells_of_cloth();
-  Own own;
-  if (!own_particle(c, own)) return;
-  uint p = own.particle;
-  if (p <= collision[0].bucket_mask + 1u) cells[p] = 0u;
-  bool first = row_index == 0u;
-  if (p == 0u) {
-    collision_state[kLongestEdge] = collision_state[kWidestPatch] = 0u;
-    if (first) collision_state[kSmallestGap] = kInfinity;
-    if (first) mark_stale(c);
-    mark_contacts(c);
-  }
-  if (collision_state[kListsArmed] == 0u) return;
+// What is the same for all particles, read once.
+struct Look {
+  bool armed;
+  real stale_squared, most, most_squared;
+  real3 with_lists;  // motion that all share, since the lists were made
+};
+
+void look_at(Cells c, Look look, uint p) {
+  if (p <= c.bucket_mask + 1u) cells[p] = 0u;
+  if (!look.armed) return;
   real4 x = position[p];
-  precise real3 gone = (x.xyz - built_position[p].xyz) - carrier[kCarrierBuilt].xyz;
-  if (!(squared_length(gone) <= collision[0].moved_squared_max_m2)) mark_stale(c);
+  precise real3 gone = (x.xyz - built_position[p].xyz) - look.with_lists;
+  real q = squared_length(gone);
+  if (!(q <= look.stale_squared)) mark_stale(c);
   if (x.w == 0.0) return;
-  bool far = squared_length(gone) > collision[0].roam_max_m * collision[0].roam_max_m;
   uint bits = surface_bound[p];
-  if (!far && bits == kInfinity) return;
+  if (!(q > look.most_squared) && bits == kInfinity) return;
   real3 x1 = x.xyz, v0 = velocity[p].xyz, v1 = v0;
   real3 shared_v = carrier[kCarrierVelocity].xyz;
-  hold_back(x1, v1, gone, collision[0].roam_max_m, shared_v);
+  hold_back(x1, v1, gone, look.most, shared_v);
   if (bits != kInfinity) {
     precise real3 since = (x1 - near_position[p].xyz) - carrier[kCarrierNear].xyz;
     real near = real(uintBitsToFloat(bits));
@@ -86,4 +83,28 @@ void main() {
   }
   position[p] = real4(x1, x.w);
   velocity[p] = real4(v1, 0.0);
+}
+
+void begin_look(Cells c) {
+  bool first = row_index == 0u;
+  collision_state[kLongestEdge] = collision_state[kWidestPatch] = 0u;
+  if (first) collision_state[kSmallestGap] = kInfinity;
+  if (first) mark_stale(c);
+  mark_contacts(c);
+}
+
+void main() {
+  Cells c = cells_of_cloth();
+  uint i = gl_GlobalInvocationID.x, first_row = gl_GlobalInvocationID.y * rows;
+  if (i >= c.nx || first_row >= c.ny) return;
+  if (i == 0u && first_row == 0u) begin_look(c);
+  Look look;
+  look.armed = collision_state[kListsArmed] != 0u;
+  look.stale_squared = collision[0].moved_squared_max_m2;
+  look.most = collision[0].roam_max_m;
+  precise real most_squared = look.most * look.most;
+  look.most_squared = most_squared;
+  look.with_lists = carrier[kCarrierBuilt].xyz;
+  uint end_row = min(first_row + rows, c.ny);
+  for (uint j = first_row; j < end_row; ++j) look_at(c, look, j * c.nx + i);
 }

@@ -95,6 +95,7 @@ const Pass pair_check{
     .domain = collision_domain,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
+    .marches = true,
     .interval = contact_interval,
 };
 

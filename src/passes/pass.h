@@ -60,7 +60,7 @@ struct Pass {
   void (*mirror_f32)(const MirrorContext&, HostBuffers<float>&);
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
-  bool marches = false;  ///< one invocation may take several rows: constant 10 of its shader says how many
+  bool marches = false;  ///< one invocation may take several rows: the constant after its own says how many
   const Pass* compensated = nullptr;  ///< the same with compensated summation of positions (f32k)
   const Pass* torn = nullptr;         ///< what stands in its place where links break
   /// For passes that a solver lists once an item (a colour of springs): where that item runs and how many
