@@ -37,6 +37,13 @@ DrawPairs::DrawPairs(gpu::Device& device, const Model& model) : device_(device) 
   }
 }
 
+DrawPairs::~DrawPairs() {
+  try {
+    device_.wait(device_.submitted());
+  } catch (...) {  // a lost device has nothing left to wait for
+  }
+}
+
 DrawPairs::Taken DrawPairs::take() {
   std::size_t best = pairs_.size();
   for (std::size_t p = 0; p < pairs_.size(); ++p) {

@@ -21,6 +21,10 @@ class DrawPairs {
 
   /// @param model  whose cloth is drawn
   DrawPairs(gpu::Device& device, const Model& model);
+  /// Waits for the pictures that read the pairs.
+  ~DrawPairs();
+  DrawPairs(const DrawPairs&) = delete;
+  DrawPairs& operator=(const DrawPairs&) = delete;
   /// A pair that no picture reads any more. At most two are taken at a time.
   Taken take();
   /// The pair is written: from now on it is what is drawn.

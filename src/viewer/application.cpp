@@ -154,6 +154,7 @@ void Application::run() {
     }
     if (pictures_ > 0) longest_gap_ms_ = std::max(longest_gap_ms_, 1e3 * elapsed_s);
     place_scene();
+    const bool had_input = window_.has_events();
     handle_input(elapsed_s);
     const double budget_s = std::clamp(1e-3 * painter_.draw_ms(), kBudgetLeast_s, kBudgetMost_s);
     attempt([&] { running_.advance(elapsed_s, budget_s); });
@@ -162,17 +163,8 @@ void Application::run() {
     attempt([&] { costs_.follow(running_); });
     attempt([&] { find_kernel(elapsed_s); });
     look_at_pictures(elapsed_s);
-    if (!picture_due()) {
-      log();
-      pace();
-      continue;
-    }
-    gui_.begin_frame();
-    const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
-    show_accuracy();
-    if (draw_quit_question(view_)) window_.request_close();
-    paint();
-    handle_panels(wishes);
+    const bool draws = picture_due();
+    if (draws || had_input) turn_panels(draws);
     log();
     pace();
   }
@@ -355,7 +347,7 @@ void Application::paint() {
   }
   ++pictures_;
   const Clock::time_point now = Clock::now();
-  paint_s_ = 0.7 * paint_s_ + 0.3 * seconds(now - began);
+  if (painter_.idle() || !device_.info().software) note_paint(seconds(now - began));
   const double took_s = std::max(seconds(now - std::exchange(latest_picture_, now)), 1e-4);
   if (pictures_ > 1) longest_picture_gap_ms_ = std::max(longest_picture_gap_ms_, 1e3 * took_s);
   pictures_per_s_ = pictures_per_s_ > 0.0 ? 0.9 * pictures_per_s_ + 0.1 / took_s : 1.0 / took_s;

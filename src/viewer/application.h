@@ -39,10 +39,13 @@ class Application {
   void handle_input(double elapsed_s);
   void handle_panels(const PanelWishes&);
   void show_accuracy();
+  void turn_panels(bool draws);
   void paint();
   bool picture_due() const;
   void look_at_pictures(double elapsed_s);
   void pace();
+  void show_drawn();
+  void note_paint(double took_s);
   void find_kernel(double elapsed_s);
   void open(const std::string& which);
   void reload();

@@ -7,6 +7,8 @@
 namespace weft {
 namespace {
 
+constexpr std::chrono::milliseconds kLook{1};  ///< between looks whether a picture is drawn
+
 double since_s(std::chrono::steady_clock::time_point moment) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - moment).count();
 }
@@ -21,15 +23,31 @@ void Application::look_at_pictures(double elapsed_s) {
   painter_.set_scale_most(share_.scale_most());
 }
 
-/// Whether this turn of the loop draws. What a person does is shown at once. Where pictures are fewer, none
-/// is begun while the device still draws: it would come no sooner, and the loop would wait instead of looking
-/// what the person does.
+/// Whether this turn of the loop draws. What a person does is shown at once. None is begun while a software
+/// device still draws: it would come no sooner, and the loop would wait instead of looking what the person
+/// does.
 bool Application::picture_due() const {
-  if (share_.step() == 0 || view_.screenshot) return true;
+  if (view_.screenshot) return true;
+  if (device_.info().software && !painter_.idle()) return false;
+  if (share_.step() == 0) return true;
   if (since_s(last_event_) < kAwake_s) return since_s(latest_picture_) >= 0.5 * picture_s_;
-  if (!painter_.idle()) return false;
   // Half a turn early rather than half a turn late.
   return since_s(latest_picture_) >= share_.period_s(picture_s_, paint_s_) - 0.5 * picture_s_;
+}
+
+/// The panels see what a person does at once, whenever the next picture comes: two clicks may lie between
+/// two.
+void Application::turn_panels(bool draws) {
+  gui_.begin_frame();
+  const PanelWishes wishes = panels_.draw(running_, pending_.value_or(running_.scene()), facts(), view_);
+  show_accuracy();
+  if (draw_quit_question(view_)) window_.request_close();
+  if (draws) {
+    paint();
+  } else {
+    gui_.skip_frame();
+  }
+  handle_panels(wishes);
 }
 
 /// Displays do not always set the pace (a virtual one never does): wait for the next turn's time.
@@ -38,7 +56,18 @@ void Application::pace() {
   const Clock::time_point now = Clock::now();
   next_turn_ = std::max(next_turn_ + period, now);
   if (next_turn_ - now > period) next_turn_ = now + period;
+  show_drawn();
+  while (!painter_.idle() && Clock::now() + kLook < next_turn_) {
+    std::this_thread::sleep_for(kLook);
+    show_drawn();
+  }
   std::this_thread::sleep_until(next_turn_);
 }
+
+void Application::show_drawn() {
+  if (const std::optional<double> drawn_s = painter_.show_drawn()) note_paint(*drawn_s);
+}
+
+void Application::note_paint(double took_s) { paint_s_ = 0.7 * paint_s_ + 0.3 * took_s; }
 
 }  // namespace weft

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/error.h"
 
@@ -70,6 +71,7 @@ Painter::Painter(gpu::Device& device, Swapchain& swapchain, Gui& gui, std::uint3
 
 Painter::~Painter() {
   try {
+    if (pending_) show_pending();
     device_.wait_idle();
   } catch (...) {  // a lost device has nothing left to wait for
   }
@@ -83,7 +85,20 @@ void Painter::set_scale(double scale, bool automatic) {
 
 bool Painter::idle() const {
   const std::uint64_t completed = device_.completed();
-  return std::ranges::all_of(frames_, [=](const Frame& frame) { return frame.submitted <= completed; });
+  return !pending_ &&
+         std::ranges::all_of(frames_, [=](const Frame& frame) { return frame.submitted <= completed; });
+}
+
+void Painter::show_pending() {
+  const Pending pending = *std::exchange(pending_, std::nullopt);
+  swapchain_.present(pending.image);
+}
+
+std::optional<double> Painter::show_drawn() {
+  if (!pending_ || pending_->submitted > device_.completed()) return std::nullopt;
+  const auto drawn = std::chrono::steady_clock::now() - pending_->since;
+  show_pending();
+  return std::chrono::duration<double>(drawn).count();
 }
 
 void Painter::set_scale_most(double scale) {
@@ -130,6 +145,7 @@ void Painter::fit_scene_image(const SceneArea& area) {
 
 std::optional<Painted> Painter::paint(const RunningScene& running, WindowSize framebuffer,
                                       const PaintRequest& request) {
+  if (pending_) show_pending();  // its image may be needed
   const auto slot = static_cast<std::uint32_t>(painted_ % kFrames);
   Frame& frame = frames_[slot];
   if (frame.submitted != 0) {
@@ -155,11 +171,13 @@ std::optional<Painted> Painter::paint(const RunningScene& running, WindowSize fr
   frame.submitted = device_.submit(
       std::span(&commands, 1),
       {.wait = frame.acquired, .wait_stage = VK_PIPELINE_STAGE_2_TRANSFER_BIT, .signal = image->drawn});
-  swapchain_.present(*image);
+  pending_ = Pending{*image, frame.submitted, std::chrono::steady_clock::now()};
   ++painted_;
 
   Painted painted;
-  if (request.screenshot || request.film) device_.wait(frame.submitted);
+  const bool wanted_now = request.screenshot || request.film;
+  if (wanted_now || !device_.info().software) show_pending();
+  if (wanted_now) device_.wait(frame.submitted);
   if (request.screenshot) painted.screenshot = picture_of(screenshot_, swapchain_.extent());
   if (request.film)
     painted.film = picture_of(film_, {scene_image_.options().width, scene_image_.options().height});

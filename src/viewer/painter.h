@@ -2,6 +2,7 @@
 // device), copied to the window's image, the panels over it; and copies for screenshots and videos.
 #pragma once
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,9 +44,14 @@ class Painter {
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  /// Draws and shows one picture; ends the panels' frame in any case. Nothing when the window had no image.
+  /// Draws one picture and shows it, on a software device not before show_drawn() finds it drawn; ends the
+  /// panels' frame in any case. Nothing when the window had no image.
   std::optional<Painted> paint(const RunningScene&, WindowSize framebuffer, const PaintRequest&);
-  /// Whether the device has drawn all that was asked for: paint() would not wait.
+  /// Shows the picture that waits for it, if the device has drawn it by now. A software driver lets whoever
+  /// shows a picture wait until it is drawn: so nobody has to.
+  /// @return  how long it was drawn [s]
+  std::optional<double> show_drawn();
+  /// Whether the device has drawn all that was asked for, and it is shown: paint() would not wait.
   bool idle() const;
   /// The share of the window's pixels, along each side, that the scene is drawn with.
   double scale() const { return scale_; }
@@ -68,6 +74,13 @@ class Painter {
     VkSemaphore acquired = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;  // timeline value, 0: never
   };
+  /// A picture that is drawn and not yet shown.
+  struct Pending {
+    SwapchainImage image;
+    std::uint64_t submitted = 0;
+    std::chrono::steady_clock::time_point since;
+  };
+  void show_pending();
   void follow(const RunningScene&);
   void fit_scene_image(const SceneArea& area);
   void record(VkCommandBuffer, const RunningScene&, const PaintRequest&, const SwapchainImage&,
@@ -83,6 +96,7 @@ class Painter {
   VkSampleCountFlagBits samples_;
   std::array<Frame, kFrames> frames_;
   std::unique_ptr<Renderer> renderer_;
+  std::optional<Pending> pending_;
   gpu::Image scene_image_;
   gpu::Buffer screenshot_, film_;
   std::uint64_t shown_version_ = 0, painted_ = 0, settled_until_ = 0;

@@ -44,6 +44,7 @@ class Window {
   /// Lets the system speak; waits up to `timeout_s` for something to happen, not at all when 0.
   void poll(double timeout_s);
   std::vector<InputEvent> take_events();
+  bool has_events() const { return !events_.empty(); }  ///< since they were taken
   bool should_close() const;
   void request_close();
   WindowSize framebuffer() const;  ///< pixels; empty while minimised

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "gpu/buffer.h"
+#include "gpu/commands.h"
 #include "gpu_fixture.h"
 #include "model/measures.h"
 #include "sim/host_drawn.h"
@@ -115,6 +116,32 @@ TEST_F(OwnThreadTest, WhatIsShownIsOneFramesState) {
   EXPECT_EQ(latest, kFrames);
   EXPECT_GT(looks, 3);
   EXPECT_EQ(state_hash(simulation->read()), state_hash(at_end.back()));
+}
+
+// A picture may still read a simulation's buffers when that one ends; the validation layer would tell.
+TEST_F(OwnThreadTest, EndsAfterThePicturesThatReadIt) {
+  auto simulation = drawn();
+  const VkDeviceSize bytes = model_.grid.count() * sizeof(glm::vec4);
+  gpu::Buffer copy(device(), "copy", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::Memory::readback);
+  gpu::Commands commands(device(), "picture");
+  commands.record([&](VkCommandBuffer handle) {
+    const VkBufferCopy region{0, 0, bytes};
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+    barrier.srcAccessMask = barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    VkDependencyInfo order{};
+    order.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    order.memoryBarrierCount = 1;
+    order.pMemoryBarriers = &barrier;
+    for (int k = 0; k < 300; ++k) {  // long enough to be under way
+      vkCmdCopyBuffer(handle, simulation->draw_buffers().position, copy.handle(), 1, &region);
+      vkCmdPipelineBarrier2(handle, &order);
+    }
+  });
+  const std::uint64_t picture = device().submit(commands.handle());
+  simulation.reset();
+  EXPECT_GE(device().completed(), picture);
 }
 
 // A person looks, a frame is cut by a stop, single frames follow: the state is that of as many frames.

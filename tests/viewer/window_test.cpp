@@ -168,6 +168,21 @@ TEST_F(WindowTest, NativeComputesWhatAPersonPullsAndChanges) {
   expect_silence(window);
 }
 
+// A drag in the scene and a click on the slider 30 ms after it, however long pictures take: both are seen.
+TEST_F(WindowTest, NoClickIsLostBetweenTwoPictures) {
+  WindowUnderTest window({"1", "--resolution", "64", "--device", "native"});
+  for (int k = 0; k < 4; ++k) {
+    const double rebuilds = window.number("rebuilds");
+    window.act("mousemove --window $W 1200 690 mousedown 1 sleep 0.03 mouseup 1 mousemove --window $W " +
+               slider_place(window, "slider", k % 2 == 0 ? 0.0 : 0.3) +
+               " sleep 0.03 mousedown 1 sleep 0.03 mouseup 1");
+    for (int wait = 0; wait < 100 && window.number("rebuilds") == rebuilds; ++wait)
+      window.wait_pictures(1, 0.2);
+    EXPECT_GT(window.number("rebuilds"), rebuilds) << "click " << k;
+  }
+  expect_silence(window);
+}
+
 TEST_F(WindowTest, TheResolutionSliderCarriesTheClothOver) {
   WindowUnderTest window({"1", "--resolution", "24"});
   window.wait_pictures(10);
