@@ -72,6 +72,10 @@ std::vector<std::string> with_command(int count, char** words) {
   const auto is_command = [&](const std::string& word) {
     return std::find(names.begin(), names.end(), word) != names.end();
   };
+  if (!arguments.empty() && arguments.front() == "help") {  // as people ask elsewhere
+    arguments.front() = "--help";
+    if (arguments.size() > 1 && is_command(arguments[1])) std::swap(arguments[0], arguments[1]);
+  }
   if (!arguments.empty()) {
     const std::string& first = arguments.front();
     if (is_command(first) || first == "--help" || first == "-h" || first == "--version") return arguments;

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "cli/text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/parameters.h"
+#include "scene/reader.h"
 
 namespace weft::cli {
 namespace {
@@ -57,7 +59,12 @@ void add_scene_key_options(CLI::App& app, Options& o) {
     o.resolution = parse_scene_count("--resolution", text, "cloth", "resolution", "--resolution 64");
   });
   add_text(app, "--material", "a preset of `weft materials` instead of the scene's", "NAME",
-           [&o](const std::string& text) { o.material = text; });
+           [&o](const std::string& text) {
+             std::vector<std::string> names;
+             for (const AssetInfo& material : list_materials()) names.push_back(material.name);
+             parse_word("--material", text, std::vector<std::string_view>(names.begin(), names.end()));
+             o.material = text;
+           });
   add_text(app, "--solver", "one of `weft solvers`", "NAME", [&o](const std::string& text) {
     o.solver = parse_scene_word("--solver", text, "solver", "name");
   });
@@ -204,6 +211,8 @@ void add_study_options(CLI::App& app, Options& o) {
   add_text(app, "--solvers", "of `weft solvers`; default all", "NAME,NAME,...",
            [&o](const std::string& text) {
              o.study.solvers = parse_list("--solvers", text, "--solvers leapfrog,rk4");
+             for (const std::string& name : o.study.solvers)
+               parse_scene_word("--solvers", name, "solver", "name");
            });
   add_text(app, "--precisions", "of f32, f32k and f64; default all", "NAME,NAME,...",
            [&o](const std::string& text) {

@@ -123,6 +123,7 @@ Exit run_render(const Options& asked) {
                 "render: --out is missing; it must name a .png, a .mp4 or DIR/frame-%04d.png "
                 "(for example --out drop.mp4)");
   const Options o = with_chosen_setting(asked, name, [&](const Scene&) { return asked.time_or_default_s(); });
+  refuse_vulkan_options(o, true);
   const Setup setup = set_up(o, name);
   const double run_s = o.time_or_default_s();
   stop_between_frames();

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <utility>
 
 #include "cli/text.h"
 #include "core/error.h"
@@ -70,6 +71,21 @@ std::vector<Scene> scenes_to_time(const Options& o) {
   for (const std::string& name : o.scenes.empty() ? std::vector<std::string>{"1"} : o.scenes)
     scenes.push_back(set_up(o, name).model.scene);
   return scenes;
+}
+
+void refuse_vulkan_options(const Options& o, bool draws) {
+  if (o.on_vulkan()) return;
+  const std::pair<const char*, bool> only_vulkan[] = {{"--kernel", !o.kernel.empty()},
+                                                      {"--shaders", !o.shaders.empty() && !draws},
+                                                      {"--validation", o.validation && !draws},
+                                                      {"--force-staging", o.force_staging && !draws}};
+  for (const auto& [option, given] : only_vulkan)
+    if (given)
+      throw error(
+          Exit::usage,
+          "{} and --device {} are both given; {} is for what a Vulkan device computes, so leave one of "
+          "them out, or name such a device (`weft devices` lists them)",
+          option, o.device, option);
 }
 
 Options with_default_device(const Options& o) {

@@ -52,6 +52,10 @@ std::vector<Scene> scenes_to_time(const Options&);
 /// device is a software one, and no option speaks of Vulkan (--kernel, --shaders, --validation,
 /// --force-staging).
 Options with_default_device(const Options&);
+/// Refuses options that speak of Vulkan together with a device that runs none.
+/// @param draws  whether a Vulkan device draws what is computed; then only the kernel is nobody's
+/// @throws Error(Exit::usage) naming both
+void refuse_vulkan_options(const Options&, bool draws);
 
 /// What the options say of the device.
 gpu::DeviceOptions device_options(const Options&);

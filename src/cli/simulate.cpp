@@ -136,6 +136,7 @@ Exit run_simulate(const Options& asked) {
   const std::string& name = only_scene(asked);
   const Options o =
       with_chosen_setting(asked, name, [&](const Scene& scene) { return run_time_s(asked, scene); });
+  refuse_vulkan_options(o, false);
   const Setup setup = set_up(o, name);
   const double run_s = run_time_s(o, setup.scene());
   std::unique_ptr<StateOutput> output;

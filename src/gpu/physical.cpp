@@ -182,9 +182,11 @@ Candidate choose_device(const std::vector<Candidate>& candidates, const std::str
   if (refused != nullptr)
     throw error(Exit::no_device, "Device \"{}\" is {}, which cannot run Weft: {}; choose one of:{}", choice,
                 refused->info.name, refused->info.unusable, table(candidates));
-  throw error(Exit::no_device,
-              "No Vulkan device is meant by \"{}\"; give part of a name, an index or a UUID of:{}", choice,
-              table(candidates));
+  throw error(
+      Exit::no_device,
+      "--device is \"{}\"; it must be cpu or native (without Vulkan), or part of a name, an index or a UUID "
+      "of:{}",
+      choice, table(candidates));
 }
 
 std::vector<DeviceInfo> list_devices() {

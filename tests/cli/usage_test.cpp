@@ -66,9 +66,30 @@ TEST(Usage, UnknownWordsSuggestTheNearest) {
                  {"--format", "jsn", "human, json", "did you mean json?"});
   expect_refused({"simulate", "1", "--solver", "leapfrg", "--device", "cpu"},
                  {"--solver is \"leapfrg\"", "did you mean leapfrog"});
-  expect_refused({"simulate", "1", "--material", "denin", "--device", "cpu"}, {"denin", "denim"});
+  expect_refused({"simulate", "1", "--material", "denin", "--device", "cpu"},
+                 {"--material is \"denin\"", "did you mean denim?"});
+  expect_refused({"study", "1", "--solvers", "rk5", "--out", "there"}, {"--solvers is \"rk5\"", "rk4"});
   expect_refused({"simulate", "two-cornes", "--device", "cpu"}, {"two-cornes", "two-corners"});
   expect_refused({"simulate", "7"}, {"7", "1"});
+}
+
+// docs/cli.md: options that speak of Vulkan are never dropped without a word.
+TEST(Usage, OptionsOfVulkanAreRefusedWhereItDoesNotCompute) {
+  for (const Arguments& option :
+       {Arguments{"--kernel", "texel"}, Arguments{"--validation"}, Arguments{"--force-staging"}})
+    for (const char* device : {"cpu", "native"}) {
+      Arguments words{"simulate", "1", "--time", "0", "--device", device};
+      words.insert(words.end(), option.begin(), option.end());
+      expect_refused(words, {option.front(), std::string("--device ") + device, "weft devices"});
+    }
+  expect_refused({"render", "1", "--time", "0", "--device", "cpu", "--kernel", "texel", "--out", "x.png"},
+                 {"--kernel", "--device cpu"});
+}
+
+TEST(Usage, HelpIsWhatAHelpOptionGives) {
+  EXPECT_EQ(weft({"help"}).out, weft({"--help"}).out);
+  EXPECT_EQ(weft({"help", "simulate"}).out, weft({"simulate", "--help"}).out);
+  EXPECT_EQ(weft({"help"}).code, 0);
 }
 
 TEST(Usage, TheCommandComesFirst) {
