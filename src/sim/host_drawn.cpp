@@ -101,6 +101,7 @@ class HostDrawn final : public HostDrawnSimulation {
     return take_done();
   }
   bool show_latest(double wait_s) override;
+  void want_middle() override { picture_due_ = true; }
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -332,6 +333,7 @@ void HostDrawn::compute_part(Lock& lock) {
   if (!written) return;
   std::swap(writing_, ready_);
   is_ready_ = true;
+  picture_due_ = false;
   ready_time_s_ = facts_.time_s;
 }
 

@@ -38,6 +38,8 @@ class HostDrawnSimulation : public DrawnSimulation {
   /// Makes draw_buffers() show the latest whole frame, or what refresh_normals() showed last where that is
   /// later. Waits that long for a new one. Returns whether there was one.
   virtual bool show_latest(double wait_s) = 0;
+  /// Asks for a picture of the middle of the frame under way; a later show_latest() shows it. Does not wait.
+  virtual void want_middle() = 0;
   /// Wall time [ms] that the thread spent on the latest finished frame.
   virtual double latest_frame_ms() const = 0;
 

@@ -147,7 +147,7 @@ void RunningScene::go_on_by_itself(double budget_s) {
   pacer_.give_up_rest(std::max(1.0, kCatchUp_s * pacer_.speed() / frame_s));
   const double patience_s = pacer_.frame_due() ? std::min(budget_s, kPatience_s) : 0.0;
   if (on_host_->show_latest(patience_s) || !mid_frame_) return;
-  if (std::max(figures_.frame_ms, figures_.expected_ms) > kHeavy_ms) simulation_->refresh_normals();
+  if (std::max(figures_.frame_ms, figures_.expected_ms) > kHeavy_ms) on_host_->want_middle();
 }
 
 void RunningScene::take_in(const FramesDone& done) {
