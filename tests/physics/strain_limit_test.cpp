@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "model/measures.h"
 #include "model/springs.h"
+#include "plan/buffers.h"
+#include "shared/reach.h"
 #include "support/run.h"
 
 namespace weft {
@@ -120,6 +122,11 @@ TEST(StrainLimit, HoldsAtYankedCornersTheCloserTheMoreSubsteps) {
   EXPECT_LE(fine, 0.065);
 }
 
+std::uint64_t bytes_of(const Plan& plan, BufferId id) {
+  const auto at = std::ranges::find(plan.buffers, id, &PlanBuffer::id);
+  return at == plan.buffers.end() ? 0 : at->bytes;
+}
+
 TEST(StrainLimit, IsInThePlanOnlyWhereTheMaterialHasOne) {
   for (const char* name : kLimiting) {
     const Plan without = compile_plan(build_model(soft_scene(0.0)), find_solver(name));
@@ -129,7 +136,14 @@ TEST(StrainLimit, IsInThePlanOnlyWhereTheMaterialHasOne) {
     EXPECT_EQ(absent->reason, "material.strain_limit is 0");
     const Plan with = compile_plan(build_model(soft_scene(0.05)), find_solver(name));
     EXPECT_EQ(with.steps.size(), without.steps.size() + 8u) << name << ": a dispatch a colour";
-    EXPECT_EQ(with.bytes(), without.bytes() + 32u) << name << ": two rows";
+    // Two rows of limits; in the table what asks whether a link is near them, three vectors a substep; and
+    // the workgroups, which only solvers have whose passes ask.
+    const std::uint64_t rows = bytes_of(with, BufferId::substeps) - bytes_of(without, BufferId::substeps);
+    const std::uint64_t capacity = kFrameSlots * substep_row_capacity(with.row_count());
+    EXPECT_EQ(rows, capacity * shared::kRowReachVec4s * 16u) << name;
+    const std::uint64_t groups = with.reaching.links ? shared::kReachWords * 4u : 0u;
+    EXPECT_EQ(bytes_of(with, BufferId::reach_groups), groups) << name;
+    EXPECT_EQ(with.bytes(), without.bytes() + 32u + rows + groups) << name;
   }
 }
 
