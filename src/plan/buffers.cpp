@@ -72,10 +72,10 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
                                             collision_state, built_position, cells,    near_position,
                                             surface_bound,   carrier};
   static constexpr std::array kCellCount = {params, position, collision, collision_state, cells, patches};
-  static constexpr std::array kCellScan = {params, collision, collision_state, cells};
+  static constexpr std::array kCellScan = {collision, collision_state, cells};
   static constexpr std::array kCellFill = {params, collision, collision_state, cells, cell_arrivals, patches};
-  static constexpr std::array kCellSort = {params,  collision,     collision_state, cells,
-                                           patches, cell_arrivals, cell_members};
+  static constexpr std::array kCellSort = {params,        collision,    collision_state, cells,
+                                           cell_arrivals, cell_members, patches};
   static constexpr std::array kPatchNear = {params,       collision, collision_state, cells,
                                             cell_members, patches,   patch_listed};
   static constexpr std::array kPairGather = {params,         position, collision,    collision_state,
