@@ -171,6 +171,7 @@ TEST_F(WindowTest, NativeComputesWhatAPersonPullsAndChanges) {
 // A drag in the scene and a click on the slider 30 ms after it, however long pictures take: both are seen.
 TEST_F(WindowTest, NoClickIsLostBetweenTwoPictures) {
   WindowUnderTest window({"1", "--resolution", "64", "--device", "native"});
+  window.wait_pictures(10);  // the panel has its lines, and the slider its place
   for (int k = 0; k < 4; ++k) {
     const double rebuilds = window.number("rebuilds");
     window.act("mousemove --window $W 1200 690 mousedown 1 sleep 0.03 mouseup 1 mousemove --window $W " +
