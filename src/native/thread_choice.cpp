@@ -16,6 +16,7 @@ constexpr double kBetweenRounds_s =
     0.012;                                // so that a trial outlasts what comes in bursts, such as a picture
 constexpr double kTrialEvery_s = 2.0;     // of computing
 constexpr double kTrialCostRatio = 20.0;  // at most a twentieth of the time is spent on trials
+constexpr double kSettledTurn_s = 0.01;
 constexpr double kSettledMemory_s = 0.3;  // of the time that a substep takes
 constexpr double kHopeless = 3.0;         // times the fastest: not tried further
 
@@ -50,9 +51,17 @@ Turn ThreadChoice::next(std::uint32_t substeps_left) {
   const double rest_s = std::max(distrusted_ ? 0.0 : kTrialEvery_s, kTrialCostRatio * trial_s_);
   if (!on_trial() && candidates_.size() > 1 && since_trial_s_ >= rest_s) begin_trial();
   between_ = on_trial() && round_ > 0 && candidate_ == 0 && between_s_ < kBetweenRounds_s;
-  if (between_) return {fastest().threads, substeps_left};
-  if (!on_trial()) return {best_, substeps_left};
+  if (between_) return {fastest().threads, std::min(substeps_left, turn_substeps_)};
+  if (!on_trial()) return {best_, std::min(substeps_left, settled_turn())};
   return {candidates_[candidate_].threads, std::min(substeps_left, turn_substeps_)};
+}
+
+/// Short enough that threads which have become slow are found out within a frame that is long.
+std::uint32_t ThreadChoice::settled_turn() const {
+  constexpr auto kAll = std::numeric_limits<std::uint32_t>::max();
+  if (candidates_.size() == 1 || best_ == 1) return kAll;
+  const double substeps = kSettledTurn_s * settled_substeps_ / settled_s_;
+  return substeps < 16.0 ? 16 : substeps < double{kAll} ? static_cast<std::uint32_t>(substeps) : kAll;
 }
 
 void ThreadChoice::report(const Turn& turn, double seconds) {

@@ -35,6 +35,7 @@ class ThreadChoice {
   };
   bool on_trial() const { return round_ < kRounds; }
   void begin_trial();
+  std::uint32_t settled_turn() const;
   double substep_s(const Candidate& candidate) const;
   const Candidate& fastest() const;
   void report_settled(double seconds, std::uint32_t substeps);
