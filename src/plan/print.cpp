@@ -1,6 +1,7 @@
 // The plan on paper: a table for people, JSON for programs and goldens.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/text.h"
@@ -40,6 +41,20 @@ std::string buffer_note(BufferId id, const Plan& plan) {
                      substep_row_capacity(plan.row_count()));
 }
 
+/// Says which passes do not run in every substep, a line for each interval.
+std::string intervals_text(const Plan& plan) {
+  std::map<std::uint32_t, std::string> names;
+  for (const PlanStep& step : plan.steps)
+    if (step.interval > 1) {
+      std::string& text = names[step.interval];
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", step.pass->name);
+    }
+  std::string lines;
+  for (const auto& [interval, passes] : names)
+    lines += fmt::format("Substeps 0, {}, {}, ... alone have {}.\n", interval, 2 * interval, passes);
+  return lines;
+}
+
 /// Says where self-collision, and not stability, decides how many substeps a frame has.
 std::string raised_text(const Plan& plan, const Model& model) {
   const std::uint32_t wanted = contact_substeps(model);
@@ -64,11 +79,7 @@ std::string describe(const Plan& plan, const Model& model) {
     text +=
         fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", block_name(step.block), step.pass->name, step.repeat,
                     fmt::format("{} x {}", step.range.x, step.range.y), constants_text(step.constants));
-  for (const PlanStep& step : plan.steps)
-    if (step.interval > 1) {
-      text += fmt::format("Passes of self-collision run in every {}th substep.\n", step.interval);
-      break;
-    }
+  text += intervals_text(plan);
   if (asks_bodies(model))
     text += "Contact with bodies runs in the substeps in which the cloth comes near one.\n";
   if (plan.reaching.links)

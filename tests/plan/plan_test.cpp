@@ -264,6 +264,22 @@ TEST(Plan, runs_self_collision_in_every_so_many_substeps) {
   EXPECT_EQ(nlohmann::json::parse(to_json(plan, model))["steps"][0]["interval"], interval);
 }
 
+/// Motion is looked at in every substep of so thin a cloth, its lists are made in some: the text names which.
+TEST(Plan, says_which_passes_some_substeps_are_without) {
+  const Model model = model_of(
+      "[cloth]\nresolution = 64\n[gravity]\n[self_collision]\nthickness = 0.001\n[solver]\nsubsteps = 200\n");
+  const Plan plan = compile_plan(model, find_solver("leapfrog"));
+  const auto interval_of = [&](const Pass& pass) {
+    return std::ranges::find(plan.steps, &pass, &PlanStep::pass)->interval;
+  };
+  const std::uint32_t looks = interval_of(pair_check), lists = interval_of(cell_count);
+  ASSERT_NE(looks, lists);
+  const std::string text = describe(plan, model);
+  EXPECT_NE(text.find(fmt::format("Substeps 0, {}, {}, ... alone have cell_count, ", lists, 2 * lists)),
+            std::string::npos);
+  EXPECT_EQ(text.find("alone have carry") != std::string::npos, looks > 1);
+}
+
 TEST(Plan, refuses_self_collision_with_solvers_that_have_no_passes_for_it) {
   const Model model = model_of(kSelfCollision);
   for (const Solver* solver : solvers()) {
