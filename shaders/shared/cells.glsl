@@ -74,19 +74,6 @@ bool covered(Cells c, real3 x) {
          abs(scaled.z) < kCellsFromOriginMax;
 }
 
-// A particle that the grid does not cover is alone in a cell of its own.
-ivec3 cell_of(Cells c, real3 x, uint particle) {
-  precise real3 scaled = floor(x * c.inverse_cell_1_m);
-  return covered(c, x) ? ivec3(scaled) : ivec3(int(particle), 0x40000000, 0x40000000);
-}
-
-// The lowest of the eight cells that hold everything within half a cell's edge.
-ivec3 corner_cell(Cells c, real3 x) {
-  precise real3 scaled = x * c.inverse_cell_1_m;
-  scaled = floor(scaled - 0.5);
-  return ivec3(scaled);
-}
-
 // Source: Teschner et al. 2003, Optimized spatial hashing for collision detection, section 3.
 uint bucket_of(Cells c, ivec3 cell) {
   uvec3 u = uvec3(cell);

@@ -43,12 +43,15 @@ std::uint32_t surface_capacity(std::uint32_t particles) {
   return std::clamp(kEntriesBound / particles, 96u, 1024u);
 }
 
-/// Edge of the grid's cubes: eight of them hold what is within reach of a pair's limit and, where edges are
-/// stretched by a tenth, of a surface. A hundredth more than that: rounding of x / cell.
+/// How far apart the nearest corners of two surfaces within reach can be, where no edge is longer than
+/// kPatchEdge times a flat cell's diagonal.
+double surface_search_m(const CollisionLayout& layout, double spacing_m) {
+  return std::hypot(layout.surface_reach_m, kPatchEdge * spacing_m);
+}
+
+/// Edge of the grid's cubes: twice what is looked for, so that a box and what is round it lie in few of them.
 double grid_cell_m(const CollisionLayout& layout, double spacing_m) {
-  const double edge_m = 1.1 * std::numbers::sqrt2 * spacing_m;
-  const double search_m = std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m);
-  return 2.02 * std::max(layout.thickness_m + layout.skin_m, search_m);
+  return 2.02 * std::max(layout.thickness_m + layout.skin_m, surface_search_m(layout, spacing_m));
 }
 
 /// First row whose pairs are so far apart on the cloth that they keep the whole thickness.
@@ -68,12 +71,9 @@ double pile_time_s(const Model& model, const CollisionLayout& layout) {
 
 /// How far the searches look, and how flat the cloth must be for them to find nothing.
 void lay_out_searches(const Model& model, CollisionLayout& layout) {
-  const double edge_m = kPatchEdge * std::numbers::sqrt2 * model.grid.spacing_m;
+  const double searched_m = surface_search_m(layout, model.grid.spacing_m);
   layout.pair_reach_m = kRoundingRoom * (layout.thickness_m + layout.skin_m);
-  layout.patch_search_m =
-      kRoundingRoom *
-      std::max(std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m), layout.pair_reach_m);
-  const double searched_m = std::hypot(layout.surface_reach_m, std::numbers::sqrt2 / 2 * edge_m);
+  layout.patch_search_m = kRoundingRoom * std::max(searched_m, layout.pair_reach_m);
   layout.patch_flat_m = searched_m / 2.0;  // the nearest that are not beside each other are two cells apart
   const auto limits = pair_limits(model, layout);
   for (std::uint32_t m = 4; m <= layout.limit_last; ++m)

@@ -17,10 +17,10 @@ namespace weft {
 struct CollisionLayout {
   double thickness_m;
   double skin_m;              ///< how much nearer than listed a pair may come before the lists are made anew
-  double cell_m;              ///< edge of the grid's cubes: at least twice thickness + skin
+  double cell_m;              ///< edge of the cubes of the grid that patches are sorted into
   std::uint32_t limit_last;   ///< row of the limits of pairs that are far apart on the cloth
   std::uint32_t column_bits;  ///< of a place, for the column
-  std::uint32_t buckets;      ///< a power of two, at least the number of particles
+  std::uint32_t buckets;      ///< a power of two, at least the number of patches
   std::uint32_t capacity;     ///< entries a particle's list has room for
   bool carried;               ///< nothing is pinned: the motion that all share is taken from everyone's
   double surface_limit_m;     ///< the distance that triangles and edges keep
@@ -159,17 +159,10 @@ struct CollisionView {
     return std::abs(x.x * inverse_cell) < most && std::abs(x.y * inverse_cell) < most &&
            std::abs(x.z * inverse_cell) < most;
   }
-  Cell cell_of(const glm::vec<4, T>& x, std::uint32_t particle) const {
-    if (!covered(x)) return {static_cast<std::int32_t>(particle), 0x40000000, 0x40000000};
-    return rounded_down(x, T(0));
-  }
-  /// The lowest of the eight cells that hold everything within half a cell's edge of x.
-  Cell corner_cell(const glm::vec<4, T>& x) const { return rounded_down(x, T(0.5)); }
-  Cell rounded_down(const glm::vec<4, T>& x, T less) const {
+  Cell cell_of(const glm::vec<4, T>& x) const {
     Cell cell{};
     for (int axis = 0; axis < 3; ++axis)
-      cell[static_cast<std::size_t>(axis)] =
-          static_cast<std::int32_t>(std::floor(x[axis] * inverse_cell - less));
+      cell[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::floor(x[axis] * inverse_cell));
     return cell;
   }
 

@@ -121,7 +121,7 @@ class PatchSearch {
   static Cell cell_of_box(const CollisionView<T>& view, const V& low, const V& high, std::uint32_t patch) {
     if (!view.covered({low, T(0)}) || !view.covered({high, T(0)}))
       return {static_cast<std::int32_t>(patch), 0x40000000, 0x40000000};
-    return view.rounded_down({T(0.5) * (low + high), T(0)}, T(0));
+    return view.cell_of({T(0.5) * (low + high), T(0)});
   }
   Cell cell_of(std::uint32_t patch) const { return cell_of_box(view_, low(patch), high(patch), patch); }
 
