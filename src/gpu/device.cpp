@@ -228,6 +228,11 @@ std::uint64_t Device::submit(std::span<const VkCommandBuffer> commands, const Su
   return ++impl_->submitted;
 }
 
+VkResult Device::present(const VkPresentInfoKHR& info) {
+  const std::lock_guard lock(impl_->submitting);
+  return vkQueuePresentKHR(impl_->queue, &info);
+}
+
 void Device::wait(std::uint64_t value) {
   VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
   info.semaphoreCount = 1;
@@ -242,7 +247,12 @@ std::uint64_t Device::completed() {
   return value;
 }
 
-void Device::wait_idle() { wait(impl_->submitted); }
+void Device::wait_idle() {
+  wait(impl_->submitted);
+  // The timeline knows nothing of pictures handed over to be shown: their semaphores are waited for after it.
+  const std::lock_guard lock(impl_->submitting);
+  check(vkQueueWaitIdle(impl_->queue), "wait for the device's queue");
+}
 
 void Device::name(VkObjectType type, std::uint64_t handle, const std::string& text) {
   if (impl_->set_name == nullptr) return;

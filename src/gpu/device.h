@@ -92,10 +92,12 @@ class Device {
   std::uint64_t submit(VkCommandBuffer commands);
   /// Several command buffers in one submission, in this order.
   std::uint64_t submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores = {});
+  /// Hands a picture over to be shown. Returns what vkQueuePresentKHR says, with no error thrown.
+  VkResult present(const VkPresentInfoKHR&);
   void wait(std::uint64_t value);
   std::uint64_t completed();        ///< latest finished timeline value
   std::uint64_t submitted() const;  ///< latest timeline value handed out
-  void wait_idle();
+  void wait_idle();  ///< for all that was submitted, and for semaphores that a picture waits on
 
   /// Names an object for RenderDoc and validation messages.
   void name(VkObjectType type, std::uint64_t handle, const std::string& text);

@@ -238,7 +238,7 @@ void Swapchain::present(const SwapchainImage& image) {
   info.swapchainCount = 1;
   info.pSwapchains = &handle_;
   info.pImageIndices = &image.index;
-  const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
+  const VkResult result = device_.present(info);
   if (result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR ||
       result == VK_ERROR_SURFACE_LOST_KHR) {
     stale_ = true;

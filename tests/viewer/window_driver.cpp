@@ -99,12 +99,7 @@ WindowUnderTest::WindowUnderTest(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) command += " " + argument;
   process_ = start({"sh", "-c", command}, {"WEFT_VIEWER_LOG=" + log_.string(), "WEFT_REQUIRE_GPU="},
                    folder_ / "output");
-  if (!wait_pictures(3, 60.0)) {
-    std::ifstream output(folder_ / "output");
-    std::stringstream text;
-    text << output.rdbuf();
-    throw std::runtime_error("the window shows no picture: " + text.str());
-  }
+  if (!wait_pictures(3, 60.0)) throw std::runtime_error("the window shows no picture: " + output());
   std::string found;
   run_command("xdotool search --onlyvisible --pid " + std::to_string(process_) + " --name Weft", found);
   window_ = found.substr(0, found.find('\n'));
@@ -117,6 +112,13 @@ WindowUnderTest::~WindowUnderTest() {
     waitpid(process_, nullptr, 0);
   }
   std::filesystem::remove_all(folder_);
+}
+
+std::string WindowUnderTest::output() const {
+  std::ifstream file(folder_ / "output");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
 }
 
 std::vector<std::string> WindowUnderTest::lines(const std::string& prefix) const {

@@ -57,6 +57,7 @@ class WindowUnderTest {
   /// property WM_STATE of ICCCM 4.1.3.1. Returns false where libX11 cannot be loaded.
   bool say_minimised(bool minimised) const;
   std::filesystem::path folder() const { return folder_; }
+  std::string output() const;  ///< what the program has written so far, validation messages among it
   /// Waits for the program to end and returns its exit code; −1 when it does not within 10 s.
   int exit_code();
 

@@ -26,7 +26,9 @@ class WindowTest : public ::testing::Test {
   void SetUp() override {
     if (!display_) GTEST_SKIP() << "no window: " << window_tests_impossible() << " (or no Vulkan device)";
   }
-  static void expect_silence(const WindowUnderTest& window) { EXPECT_EQ(window.value("messages"), "0"); }
+  static void expect_silence(const WindowUnderTest& window) {
+    EXPECT_EQ(window.value("messages"), "0") << window.output();
+  }
 
   /// A place along a slider that the log names, 0 its left and 1 its right end, as xdotool takes it.
   static std::string slider_place(const WindowUnderTest& window, const std::string& slider, double share) {
