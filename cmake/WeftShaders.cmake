@@ -12,10 +12,11 @@ list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensa
 list(TRANSFORM double_sources APPEND "+WEFT_F64")
 list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
 
-# What tells whether the cloth comes near a body, and what then runs: in scenes with capsules, boxes or meshes.
+# What tells whether the cloth comes near a body, or a link near its limit, and what then runs. The passes of
+# tearing have that always.
 set(reach_sources ${shader_sources} ${double_sources})
 list(FILTER reach_sources INCLUDE REGEX
-  "/(integrate(_steal|_strip|_texel|_torn)?(_compensated)?|xpbd_finish|strain_limit|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
+  "/(integrate(_steal|_strip|_texel)?(_compensated)?|xpbd_finish|strain_limit|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
 list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
 
 # Kernels that lack an effect, one constant of effects.glsl each: what bench --effects holds against those that have

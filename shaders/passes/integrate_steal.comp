@@ -72,6 +72,9 @@ void end_queues() {
 }
 
 void main() {
+#ifdef WEFT_REACH
+  if (is_torn()) return;
+#endif
   hold_params();
   Step s = step_of(row_index * params.row_stride);
   const uint wide = columns * gl_SubgroupSize;

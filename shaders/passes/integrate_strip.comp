@@ -38,6 +38,9 @@ void put(uint p, vec4 x, vec4 v) {
 #include "../shared/strip.glsl"
 
 void main() {
+#ifdef WEFT_REACH
+  if (is_torn()) return;
+#endif
   hold_params();
   Step s = step_of(row_index * params.row_stride);
   uint first = gl_GlobalInvocationID.x * columns, begin = gl_GlobalInvocationID.y * rows;

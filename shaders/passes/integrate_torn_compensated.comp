@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define WEFT_REACH
 #include "../shared/pass.glsl"
 #include "../shared/links.h"
 

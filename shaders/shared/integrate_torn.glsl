@@ -91,5 +91,6 @@ void main() {
   }
   position_next[p] = real4(x1, own.w);
   velocity_next[p] = real4(v, 0.0);
+  tight = asks_links && p == 0u;  // broken links are long: more may break in every substep
   tell_reach();
 }

@@ -5,6 +5,9 @@
 void move(Step s, Column c, inout March m);
 
 void main() {
+#ifdef WEFT_REACH
+  if (is_torn()) return;
+#endif
   hold_params();
   uint i = gl_GlobalInvocationID.x, first = gl_GlobalInvocationID.y * rows;
   if (i >= params.nx || first >= params.ny) return;

@@ -1,12 +1,17 @@
 // Tells whether some particle's drift comes near a capsule, a box or a mesh, so that the passes of contact
-// have workgroups, and whether some link may get longer than the strain limit: src/passes/reach.h says why
-// nothing else can touch a body or be too long. A module without WEFT_REACH has none of it. The including
-// pass declares READS(real4, substeps) and includes this before force.glsl and kick.glsl.
+// have workgroups, and whether some link may get longer than the strain limit, or than where it breaks:
+// src/passes/reach.h says why nothing else can touch a body or be too long. A module without WEFT_REACH has
+// none of it. The including pass declares READS(real4, substeps) and includes this before force.glsl and
+// kick.glsl.
 #ifdef WEFT_REACH
 #include "reach.h"
 UPDATES(uint, reach_groups)
 
+layout(constant_id = 28) const bool tears = false;
 layout(constant_id = 29) const bool asks_links = false;
+
+// Whether integrate_torn moves the cloth, and `integrate` has nothing to do.
+bool is_torn() { return tears && reach_groups[kReachTorn] != 0u; }
 
 real4 reach_links;  // squares: structural link, diagonal, drift
 bool tight = false;
@@ -50,6 +55,10 @@ void tell_reach() {
     }
   }
   if (!asks_links) return;
+  if (tears) {
+    if (subgroupElect()) atomicMax(reach_groups[kReachTear], groups);
+    return;
+  }
   if (subgroupElect()) {  // what a body touches is moved once more, so that being near one counts here, too
     atomicMax(reach_groups[kReachLinks], ((params.nx + 1u) / 2u + kReachGroup - 1u) / kReachGroup);
     atomicMax(reach_groups[kReachLinksDown], groups);

@@ -1,5 +1,5 @@
-// Whether passes after a drift have anything to do: words of `reach_groups`, the workgroups of contact with
-// bodies and of the strain limit, which run in those substeps alone.
+// Whether some passes have anything to do: words of `reach_groups`, the workgroups of contact with bodies, of
+// the strain limit and of tearing, which run in those substeps alone.
 #ifndef WEFT_SHARED_REACH_H
 #define WEFT_SHARED_REACH_H
 #include "types.h"
@@ -12,6 +12,9 @@ WEFT_CONST uint kReachLinks = 6u;       // of strain_limit: links along i and di
 WEFT_CONST uint kReachLinksDown = 9u;   // of strain_limit: links along j
 WEFT_CONST uint kReachAsksLinks = 12u;  // 1: links are looked at; 0: their words mean nothing
 WEFT_CONST uint kReachWords = 13u;
+WEFT_CONST uint kReachTear = 13u;  // of tear; these six in scenes with tearing alone
+WEFT_CONST uint kReachTorn = 16u;  // of integrate_torn; from the first broken link on it moves the cloth
+WEFT_CONST uint kReachWordsTearing = 19u;
 WEFT_CONST uint kReachGroup = 64u;  // invocations of a workgroup of those passes, along a row
 
 WEFT_SHARED_END

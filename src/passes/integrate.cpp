@@ -39,6 +39,7 @@ namespace {
 
 template <class T, bool kCompensated>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (is_torn(context.model, buffers)) return;
   const Substep<T> substep(context);
   auto& position_next = buffers[BufferId::position_next];
   auto& velocity_next = buffers[BufferId::velocity_next];
@@ -59,21 +60,24 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   });
 }
 
-constexpr Pass telling(Pass pass) {
+constexpr Pass telling(Pass pass, const Pass& once_torn) {
   pass.tells_reach = pass.sees_links = true;
+  pass.once_torn = &once_torn;
   return pass;
 }
 
 }  // namespace
 
-const Pass integrate = telling(
-    spring_pass("integrate", "springs, damping, bending, air, gravity, contact: one kick and drift",
-                mirror<float, false>, mirror<double, false>, &integrate_compensated, &integrate_torn));
+const Pass integrate =
+    telling(spring_pass("integrate", "springs, damping, bending, air, gravity, contact: one kick and drift",
+                        mirror<float, false>, mirror<double, false>, &integrate_compensated),
+            integrate_torn);
 
 const Pass integrate_compensated =
     telling(spring_pass("integrate_compensated",
                         "springs, damping, bending, air, gravity, contact: one kick "
                         "and drift, positions summed with compensation",
-                        mirror<float, true>, mirror<double, true>));
+                        mirror<float, true>, mirror<double, true>),
+            integrate_torn_compensated);
 
 }  // namespace weft

@@ -1,5 +1,6 @@
-// integrate_torn: one substep of a cloth whose links break, gathered particle by particle. Declaration and
-// CPU mirror. docs/float-form.md "Tearing": integrate's sum without what is broken.
+// integrate_torn: one substep of a cloth of which links are broken, gathered particle by particle; until then
+// `integrate` moves it. Declaration and CPU mirror. docs/float-form.md "Tearing": integrate's sum without
+// what is broken.
 #include "passes/passes.h"
 #include "passes/reach.h"
 #include "passes/tearing.h"
@@ -99,6 +100,7 @@ class Gather {
 
 template <class T, bool kCompensated>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!is_torn(context.model, buffers)) return;
   const Grid& grid = context.model.grid;
   const Substep<T> substep(context);
   auto& position_next = buffers[BufferId::position_next];
@@ -106,6 +108,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   position_next.resize(grid.count());
   velocity_next.resize(grid.count());
   ReachTeller<T> reach(context, buffers);
+  reach.look_at_torn();
   Compensation<T, kCompensated> compensation(buffers, grid.count());
   const Gather<T> gather(context, buffers, substep);
   parallel_rows(grid.ny, grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
@@ -130,12 +133,12 @@ const Pass integrate_torn{
     .about = "springs that are whole, damping, bending, air, gravity, contact: one kick and drift",
     .domain = whole_cloth,
     .constants = integrate_constants,
-    .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, false>,
     .mirror_f64 = mirror<double, false>,
-    .swaps_state = true,
     .compensated = &integrate_torn_compensated,
+    .reach_word = [](std::uint32_t) { return shared::kReachTorn; },
     .tells_reach = true,
+    .sees_links = true,
 };
 
 const Pass integrate_torn_compensated{
@@ -146,11 +149,11 @@ const Pass integrate_torn_compensated{
         "with compensation",
     .domain = whole_cloth,
     .constants = integrate_constants,
-    .spring_evaluations = every_spring,
     .mirror_f32 = mirror<float, true>,
     .mirror_f64 = mirror<double, true>,
-    .swaps_state = true,
+    .reach_word = [](std::uint32_t) { return shared::kReachTorn; },
     .tells_reach = true,
+    .sees_links = true,
 };
 
 }  // namespace weft

@@ -170,7 +170,7 @@ void mesh_touch(const MeshField<T>& field, const SolidRow<T>& row, const Vec3<T>
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
-  if (!take_reach(buffers, shared::kReachMeshes)) return;
+  if (!take_reach(context.model, buffers, shared::kReachMeshes)) return;
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   const Ground<T> ground(context.model);
   const Grid& grid = context.model.grid;

@@ -63,6 +63,7 @@ struct Pass {
   bool marches = false;  ///< one invocation may take several rows: the constant after its own says how many
   const Pass* compensated = nullptr;  ///< the same with compensated summation of positions (f32k)
   const Pass* torn = nullptr;         ///< what stands in its place where links break
+  const Pass* once_torn = nullptr;    ///< what runs before it there, and in its place once a link is broken
   /// For passes that a solver lists once an item (a colour of springs): where that item runs and how many
   /// springs it evaluates. domain and spring_evaluations are not asked then.
   Range (*item_domain)(const Model&, std::uint32_t item) = nullptr;

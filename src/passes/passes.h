@@ -33,7 +33,7 @@ extern const Pass pin_place;                   ///< what moving pins hold, put w
 extern const Pass xpbd_pins;                   ///< XPBD: how far they move it
 extern const Pass tear;                        ///< links that are too long break
 extern const Pass aerodynamics_torn;           ///< aerodynamics of whole triangles only
-extern const Pass integrate_torn;              ///< integrate with whole links only
+extern const Pass integrate_torn;              ///< integrate's work once a link is broken
 extern const Pass integrate_torn_compensated;  ///< f32k
 extern const Pass normals_torn;                ///< normals with whole triangles only
 extern const Pass torn_mesh;                   ///< what of a torn cloth is drawn

@@ -73,7 +73,7 @@ bool asks_bodies(const Model& model) {
 }
 
 bool asks_links(const Model& model) {
-  return has_strain_limit(model) && model.springs[kShearDown].stiffness_n_m > 0.0 &&
+  return (has_strain_limit(model) || model.scene.tearing) && model.springs[kShearDown].stiffness_n_m > 0.0 &&
          model.moved_pins.empty() && !has_tilted_floor(model);
 }
 
@@ -95,14 +95,37 @@ ReachRow<double> reach_row_exact(const Model& model, const KickDrift& row) {
   return reach;
 }
 
-std::vector<std::uint32_t> initial_reach_groups(const Grid& grid, bool links) {
+std::vector<std::uint32_t> initial_reach_groups(const Model& model, bool links) {
+  const Grid& grid = model.grid;
   const std::uint32_t down = grid.cloths * ((grid.ny + 1) / 2);
-  return {0, grid.rows(), 1, 0, grid.rows(), 1, 0, grid.rows(), 1, 0, down, 1, links ? 1u : 0u};
+  std::vector<std::uint32_t> words{0, grid.rows(), 1,    0, grid.rows(),    1, 0, grid.rows(),
+                                   1, 0,           down, 1, links ? 1u : 0u};
+  if (model.scene.tearing) words.insert(words.end(), {0, grid.rows(), 1, 0, grid.rows(), 1});
+  return words;
 }
 
-bool take_reach(HostWords& buffers, std::uint32_t word) {
+void tell_torn(const Grid& grid, std::span<const std::uint32_t> broken_links,
+               std::vector<std::uint32_t>& words) {
+  const bool torn = std::ranges::any_of(broken_links, [](std::uint32_t links) { return links != 0; });
+  words[shared::kReachTorn] = torn ? (grid.nx + shared::kReachGroup - 1) / shared::kReachGroup : 0;
+}
+
+bool is_torn(const Model& model, const HostWords& buffers) {
+  if (!model.scene.tearing) return false;
+  const auto& words = buffers.words_of(BufferId::reach_groups);
+  return words.empty() || words[shared::kReachTorn] != 0;
+}
+
+bool take_reach(const Model& model, HostWords& buffers, std::uint32_t word) {
   auto& words = buffers.words_of(BufferId::reach_groups);
-  return words.empty() || std::exchange(words[word], 0u) != 0;
+  return words.empty() || !asks_bodies(model) || std::exchange(words[word], 0u) != 0;
+}
+
+bool take_tear(HostWords& buffers) {
+  auto& words = buffers.words_of(BufferId::reach_groups);
+  if (words.empty()) return true;
+  const bool asked = std::exchange(words[shared::kReachTear], 0u) != 0;
+  return asked || words[shared::kReachAsksLinks] == 0;
 }
 
 bool take_links(HostWords& buffers, std::uint32_t item) {

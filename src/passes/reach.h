@@ -1,7 +1,9 @@
-// Whether the cloth comes near a capsule, a box or a mesh in a substep, or a link near the strain limit: what
-// moves the particles says so, and where nothing does, contact and the limit have no workgroups.
+// Whether the cloth comes near a capsule, a box or a mesh in a substep, or a link near the strain limit or
+// near breaking: what moves the particles says so, and where nothing does, contact, limit and tearing have no
+// workgroups.
 #pragma once
 #include <atomic>
+#include <span>
 
 #include "passes/coefficients.h"
 #include "passes/host_buffers.h"
@@ -21,7 +23,7 @@ namespace weft {
 /// s)·G)/(1 − s) that reaches it; so all that do end within s·(R + G) + G of it.
 ///
 /// And a link that was no longer than half way to its limit, in a substep in which no particle goes farther
-/// than a quarter of that way, ends below it.
+/// than a quarter of that way, ends below it. The limit is where it is pulled back, or where it breaks.
 template <class T>
 struct ReachRow {
   glm::vec<3, T> low, high;  ///< corners of the box [m]; the first above the second: nothing is near
@@ -34,13 +36,15 @@ struct ReachRow {
 /// which contact with them looks after as well.
 bool asks_bodies(const Model& model);
 
-/// Whether it is asked about links, if the solver's passes look at them: the scene has a strain limit and
-/// shear springs, and nothing moves particles in between that is not asked about: no pins that move, no floor
-/// that leans.
+/// Whether it is asked about links, if the solver's passes look at them: the scene has a strain limit, or
+/// tears, and has shear springs, and nothing moves particles in between that is not asked about: no pins that
+/// move, no floor that leans.
 bool asks_links(const Model& model);
 
-/// Whether rows have what is asked.
-inline bool has_reach(const Model& model) { return asks_bodies(model) || asks_links(model); }
+/// Whether rows have what is asked; tearing tells which pass moves the cloth even where nothing is asked.
+inline bool has_reach(const Model& model) {
+  return asks_bodies(model) || asks_links(model) || model.scene.tearing;
+}
 
 /// Of a scene that asks. Nothing is near where the row has no drift.
 ReachRow<double> reach_row_exact(const Model& model, const KickDrift& row);
@@ -56,13 +60,23 @@ ReachRow<T> reach_row(const Model& model, const KickDrift& row) {
           static_cast<T>(exact.step2)};
 }
 
-/// The words of `reach_groups` before anything moves.
+/// The words of `reach_groups` before anything moves, of a whole cloth.
 /// @param links  whether what moves the particles looks at links
-std::vector<std::uint32_t> initial_reach_groups(const Grid& grid, bool links);
+std::vector<std::uint32_t> initial_reach_groups(const Model& model, bool links);
+
+/// Says in the words of a scene with tearing whether any of the cloth's links is broken.
+void tell_torn(const Grid& grid, std::span<const std::uint32_t> broken_links,
+               std::vector<std::uint32_t>& words);
+
+/// Whether integrate_torn moves the cloth in integrate's place: a link is broken, or nobody tells.
+bool is_torn(const Model& model, const HostWords& buffers);
 
 /// Whether contact has anything to do in this substep; from then on it has not. `word`: kReachSolids or
-/// kReachMeshes. Where the buffer is absent nobody asks, and it always may have.
-bool take_reach(HostWords& buffers, std::uint32_t word);
+/// kReachMeshes. Where nobody asks it always may have.
+bool take_reach(const Model& model, HostWords& buffers, std::uint32_t word);
+
+/// The same of tear.
+bool take_tear(HostWords& buffers);
 
 /// Where strain_limit's item finds its workgroups.
 constexpr std::uint32_t reach_word_of_colour(std::uint32_t item) {
@@ -81,14 +95,13 @@ class ReachTeller {
     if (words_.empty()) return;
     row_ = reach_row<T>(context.model, context.row);
     asks_links_ = words_[shared::kReachAsksLinks] != 0;
+    tears_ = context.model.scene.tearing.has_value();
   }
   ReachTeller(const ReachTeller&) = delete;
   ReachTeller& operator=(const ReachTeller&) = delete;
   ~ReachTeller() {
     if (reached_) tell({shared::kReachSolids, shared::kReachMeshes}, nx_);
-    if (!asks_links_ || !(reached_ || tight_)) return;
-    tell({shared::kReachLinks}, (nx_ + 1) / 2);
-    tell({shared::kReachLinksDown}, nx_);
+    if (asks_links_ && (reached_ || tight_)) tell_of_links();
   }
 
   /// Of every link, before the particles move.
@@ -113,6 +126,9 @@ class ReachTeller {
     });
   }
 
+  /// Of a torn cloth, whose broken links are long: more may break in every substep.
+  void look_at_torn() { tight_ = true; }
+
   /// Of a particle that drifted from x0 to x1; any thread may call it.
   void look(const glm::vec<3, T>& x0, const glm::vec<3, T>& x1) {
     if (words_.empty()) return;
@@ -122,6 +138,11 @@ class ReachTeller {
 
  private:
   static T squared(const glm::vec<3, T>& d) { return (d.x * d.x + d.y * d.y) + d.z * d.z; }
+  void tell_of_links() {
+    if (tears_) return tell({shared::kReachTear}, nx_);
+    tell({shared::kReachLinks}, (nx_ + 1) / 2);
+    tell({shared::kReachLinksDown}, nx_);
+  }
   /// Workgroups over so many columns, if there were fewer.
   void tell(std::initializer_list<std::uint32_t> words, std::uint32_t columns) {
     for (const std::uint32_t word : words)
@@ -139,7 +160,7 @@ class ReachTeller {
   std::vector<std::uint32_t>& words_;
   std::uint32_t nx_;
   ReachRow<T> row_{};
-  bool asks_links_ = false;
+  bool asks_links_ = false, tears_ = false;
   std::atomic<bool> reached_{false}, tight_{false};
 };
 

@@ -21,7 +21,7 @@ Constants constants(const Model& m) {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
-  if (!take_reach(buffers, shared::kReachSolids)) return;
+  if (!take_reach(context.model, buffers, shared::kReachSolids)) return;
   const SubstepRow<T> row = substep_row<T>(context.model, context.row);
   const Ground<T> ground(context.model);
   const Grid& grid = context.model.grid;

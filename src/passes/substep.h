@@ -199,13 +199,12 @@ constexpr Pass spring_pass(std::string_view name, std::string_view about,
           .marches = true};
 }
 
-/// The same with a form that compensates positions (f32k), and one of whole links only where they break.
+/// The same with a form that compensates positions (f32k).
 constexpr Pass spring_pass(std::string_view name, std::string_view about,
                            decltype(Pass::mirror_f32) mirror_f32, decltype(Pass::mirror_f64) mirror_f64,
-                           const Pass* compensated, const Pass* torn = nullptr) {
+                           const Pass* compensated) {
   Pass pass = spring_pass(name, about, mirror_f32, mirror_f64);
   pass.compensated = compensated;
-  pass.torn = torn;
   return pass;
 }
 

@@ -133,6 +133,8 @@ void load_state(const Model& model, const State& state, HostBuffers<T>& buffers)
   if (!links.empty()) {
     links.assign(count, 0);
     std::ranges::copy(state.broken_links, links.begin());
+    auto& groups = buffers.words_of(BufferId::reach_groups);
+    if (!groups.empty()) tell_torn(model.grid, links, groups);
   }
   auto& excess = buffers[BufferId::compensation];
   if (excess.empty()) return;

@@ -2,6 +2,7 @@
 // Source: Terzopoulos and Fleischer 1988, Modeling inelastic deformation, section 5: fibres break at a
 // strain.
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/strain_limit.h"
 #include "passes/tearing.h"
 
@@ -10,6 +11,7 @@ namespace {
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
+  if (!take_tear(buffers)) return;
   const Grid& grid = context.model.grid;
   const auto limits = strain_limit_rows<T>(context.model);
   const auto& x = std::as_const(buffers)[BufferId::position];
@@ -28,6 +30,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       if (too_long(p + 1, p + grid.nx, shared::kLimitShear)) links[p] |= shared::kLinkRising;
     }
   });
+  auto& groups = buffers.words_of(BufferId::reach_groups);
+  if (!groups.empty()) tell_torn(grid, links, groups);
 }
 
 }  // namespace
@@ -38,6 +42,7 @@ const Pass tear{
     .domain = torn_cloth,
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
+    .reach_word = [](std::uint32_t) { return shared::kReachTear; },
 };
 
 }  // namespace weft

@@ -44,7 +44,8 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
-    case BufferId::reach_groups: return shared::kReachWords;
+    case BufferId::reach_groups:
+      return model.scene.tearing ? shared::kReachWordsTearing : shared::kReachWords;
     case BufferId::torn_mesh: return torn_mesh_words(model.grid);
     default:  // one element a particle
       return model.grid.count();
@@ -173,14 +174,15 @@ std::span<const BufferId> buffers_of(const Pass& pass) {
   static constexpr std::array kPinRelease = {params, substeps, position, moved_pins};
   if (&pass == &pin_release) return kPinRelease;
   if (&pass == &pin_place) return kPinPlace;
-  static constexpr std::array kTear = {params, position, strain_limits, broken_links};
-  static constexpr std::array kIntegrateTorn = {params,   substeps,      position,    position_next,
-                                                velocity, velocity_next, broken_links};
+  static constexpr std::array kTear = {params, position, strain_limits, broken_links, reach_groups};
+  static constexpr std::array kIntegrateTorn = {params,   substeps,      position,     position_next,
+                                                velocity, velocity_next, broken_links, reach_groups};
   static constexpr std::array kNormalsTorn = {params, position, normal, broken_links};
   static constexpr std::array kTornMesh = {params, broken_links, BufferId::torn_mesh};
   if (&pass == &tear) return kTear;
-  static constexpr std::array kIntegrateTornCompensated = {
-      params, substeps, position, position_next, velocity, velocity_next, broken_links, compensation};
+  static constexpr std::array kIntegrateTornCompensated = {params,        substeps,     position,
+                                                           position_next, velocity,     velocity_next,
+                                                           broken_links,  reach_groups, compensation};
   if (&pass == &integrate_torn) return kIntegrateTorn;
   if (&pass == &integrate_torn_compensated) return kIntegrateTornCompensated;
   if (&pass == &normals_torn) return kNormalsTorn;
@@ -209,7 +211,7 @@ void size_buffers(const Plan& plan, const Model& model, HostBuffers<T>& buffers)
   auto& state = buffers.words_of(BufferId::collision_state);
   if (!state.empty()) state = initial_collision_state(model);
   auto& reach = buffers.words_of(BufferId::reach_groups);
-  if (!reach.empty()) reach = initial_reach_groups(model.grid, plan.reaching.links);
+  if (!reach.empty()) reach = initial_reach_groups(model, plan.reaching.links);
 }
 
 template void size_buffers(const Plan&, const Model&, HostBuffers<float>&);

@@ -32,7 +32,8 @@ bool host_written(BufferId id);
 /// Copies there are of a buffer: kFrameSlots of what the host writes each frame, one of all else.
 std::uint32_t slot_count(BufferId id);
 
-/// The buffers a pass reads or writes, ascending, without reach_groups; its shader's SPIR-V says the same
+/// The buffers a pass reads or writes, ascending, without the reach_groups that a
+/// pass has in some plans only; its shader's SPIR-V says the same
 /// (tests/sim holds them together).
 std::span<const BufferId> buffers_of(const Pass& pass);
 

@@ -68,7 +68,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
     const auto touched = buffers_of(*step.pass);
     needed.insert(touched.begin(), touched.end());
   }
-  if (plan.reaching.asked) needed.insert(BufferId::reach_groups);
+  if (plan.reaching.asked()) needed.insert(BufferId::reach_groups);
   std::vector<PlanBuffer> buffers;
   for (const BufferId id : needed)
     buffers.push_back({id, slot_bytes(id, model, plan.row_count(), plan.in_double()) * slot_count(id)});
@@ -82,8 +82,7 @@ constexpr std::array kEveryFrame{SolverStep{&watch, Block::frame_end}, SolverSte
 std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::uint32_t substeps,
                                 bool compensated) {
   std::vector<PlanStep> steps;
-  const auto add = [&](const SolverStep& step) {
-    const Pass& plain = model.scene.tearing && step.pass->torn ? *step.pass->torn : *step.pass;
+  const auto put = [&](const Pass& plain, const SolverStep& step) {
     const Pass& pass = compensated && plain.compensated ? *plain.compensated : plain;
     const Range range = pass.item_domain ? pass.item_domain(model, step.item) : pass.domain(model);
     if (range.empty()) return;
@@ -95,6 +94,11 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
     const std::uint32_t repeat = step.block == Block::substep ? (substeps - 1) / interval + 1 : 1;
     steps.push_back(
         {&pass, step.block, repeat, range, pass.constants(model), step.row, step.item, springs, interval});
+  };
+  const auto add = [&](const SolverStep& step) {
+    const bool tears = model.scene.tearing.has_value();
+    if (tears && step.pass->once_torn) put(*step.pass->once_torn, step);
+    put(tears && step.pass->torn ? *step.pass->torn : *step.pass, step);
   };
   for (const Block block : {Block::frame_start, Block::substep, Block::frame_end})
     for (const SolverStep& step : solver.steps)
@@ -229,7 +233,8 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
   plan.reaching.links = asks_links(model) && std::ranges::any_of(plan.steps, [](const PlanStep& step) {
                           return step.pass->sees_links;
                         });
-  plan.reaching.asked = asks_bodies(model) || plan.reaching.links;
+  plan.reaching.bodies = asks_bodies(model);
+  plan.reaching.tears = model.scene.tearing.has_value();
   plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
   if (model.grid.cloths > 1) plan.sheet_rows = model.grid.ny;
@@ -243,8 +248,10 @@ std::uint64_t Plan::bytes() const {
 }
 
 std::optional<std::uint32_t> Reaching::word(const PlanStep& step) const {
-  if (!asked || step.pass->reach_word == nullptr) return std::nullopt;
-  if (step.pass == &strain_limit && !links) return std::nullopt;
+  if (step.pass->reach_word == nullptr) return std::nullopt;
+  const bool by_links = step.pass == &strain_limit || step.pass == &tear;
+  const bool by_bodies = step.pass == &solid_contact || step.pass == &mesh_contact;
+  if ((by_links && !links) || (by_bodies && !bodies)) return std::nullopt;
   return step.pass->reach_word(step.item);
 }
 

@@ -25,10 +25,12 @@ struct PlanStep {
   std::uint32_t interval = 1;  ///< in the substep block: runs in substeps 0, interval, 2·interval, …
 };
 
-/// Which passes after a drift run only where they have something to do (passes/reach.h).
+/// Which passes run only where they have something to do (passes/reach.h).
 struct Reaching {
-  bool asked = false;  ///< contact with bodies, where there are any, and:
-  bool links = false;  ///< the strain limit
+  bool bodies = false;  ///< contact with them
+  bool links = false;   ///< the strain limit, or tear
+  bool tears = false;   ///< integrate_torn, in integrate's place
+  bool asked() const { return bodies || links || tears; }
   /// Where in reach_groups the step finds its workgroups; nothing where it always runs.
   std::optional<std::uint32_t> word(const PlanStep& step) const;
 };

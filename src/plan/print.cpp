@@ -80,10 +80,13 @@ std::string describe(const Plan& plan, const Model& model) {
         fmt::format("{:<12} {:<14} {:>7}  {:<12} {}\n", block_name(step.block), step.pass->name, step.repeat,
                     fmt::format("{} x {}", step.range.x, step.range.y), constants_text(step.constants));
   text += intervals_text(plan);
-  if (asks_bodies(model))
+  if (plan.reaching.bodies)
     text += "Contact with bodies runs in the substeps in which the cloth comes near one.\n";
   if (plan.reaching.links)
-    text += "strain_limit runs in the substeps in which a link comes near the limit.\n";
+    text += fmt::format("{} runs in the substeps in which a link comes near the limit.\n",
+                        plan.reaching.tears ? "tear" : "strain_limit");
+  if (plan.reaching.tears)
+    text += "integrate moves the cloth until a link breaks, integrate_torn from then on.\n";
   text += raised_text(plan, model);
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",

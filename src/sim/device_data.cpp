@@ -106,21 +106,22 @@ void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
   }
 }
 
-void write_groups(GpuBuffers& buffers, const Model& model, const Plan& plan) {
-  const auto write = [&](BufferId id, const std::vector<std::uint32_t>& words) {
-    if (buffers.has(id)) buffers.at(id).write(std::as_bytes(std::span(words)));
-  };
-  write(BufferId::collision_state, initial_collision_state(model));
-  write(BufferId::reach_groups, initial_reach_groups(model.grid, plan.reaching.links));
+void write_groups(GpuBuffers& buffers, const Model& model) {
+  if (!buffers.has(BufferId::collision_state)) return;
+  const std::vector<std::uint32_t> words = initial_collision_state(model);
+  buffers.at(BufferId::collision_state).write(std::as_bytes(std::span(words)));
 }
 
 void write_state(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
                  const State& state) {
   in_precision(plan, [&]<class T>(T) {
     auto host = sized_for_state<T>(buffers, model, plan);
+    auto& groups = host.words_of(BufferId::reach_groups);
+    if (buffers.has(BufferId::reach_groups)) groups = initial_reach_groups(model, plan.reaching.links);
     load_state(model, state, host);
     for (const BufferId id : state_buffers(buffers))
       buffers.at(at_parity(id, parity)).write(bytes_in(host, id));
+    if (!groups.empty()) buffers.at(BufferId::reach_groups).write(std::as_bytes(std::span(groups)));
   });
 }
 

@@ -30,10 +30,12 @@ Bytes table_bytes(const Model&, const Plan&, std::span<const KickDrift> rows, co
 /// Fills every copy of the blocks that the plan has.
 void write_blocks(GpuBuffers&, const Model&, const Plan&, const Perturbation& = {});
 
-/// Writes the words that indirect dispatches take their workgroups from, as before anything moves.
-void write_groups(GpuBuffers&, const Model&, const Plan&);
+/// Writes the words that self-collision's indirect dispatches take their workgroups from, as before anything
+/// moves.
+void write_groups(GpuBuffers&, const Model&);
 
-/// Writes the canonical state: position, velocity and, in f32k, what rounding leaves over.
+/// Writes the canonical state: position, velocity, in f32k what rounding leaves over, and broken links with
+/// the workgroups that follow from them.
 void write_state(GpuBuffers&, Parity, const Model&, const Plan&, const State&);
 
 /// @param time_s  that the state is to have

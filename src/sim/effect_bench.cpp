@@ -132,7 +132,7 @@ EffectRow compare(gpu::Device& device, const Scene& with_scene, const Scene& wit
   Side without(device, without_scene, substeps, options, pipelines);
   const std::vector<std::string> lost = constants_lost(with.simulation().plan(), without.simulation().plan());
   std::optional<Side> lacking;  // what runs without the effect, in a build that never had it
-  const bool plain = !without.simulation().plan().reaching.asked;  // else other modules run
+  const bool plain = !without.simulation().plan().reaching.asked();  // else other modules run
   if (plain && lost.size() == 1 && GpuPipelines::can_lack(lost[0]))
     lacking.emplace(device, without_scene, substeps, options,
                     std::make_shared<GpuPipelines>(device, lost[0]));

@@ -56,8 +56,8 @@ VkBufferUsageFlags usage_of(BufferId id) {
 
 /// The id of `sheet_rows` (shaders/shared/sheets.glsl): beyond all that passes and kernels have.
 constexpr std::size_t kSheetRowsConstant = 30;
-/// And that of `asks_links` (shaders/shared/reach.glsl), before it.
-constexpr std::size_t kAsksLinksConstant = 29;
+/// And those of `asks_links` and `tears` (shaders/shared/reach.glsl), before it.
+constexpr std::size_t kAsksLinksConstant = 29, kTearsConstant = 28;
 
 /// What the host writes or reads every frame, without a copy between; devices seldom touch it.
 bool host_reaches(BufferId id) { return host_written(id) || id == BufferId::watch_state; }
@@ -201,8 +201,9 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
 GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step, const GpuBuffers& buffers,
                                       GpuPipelines& pipelines, bool several) {
   Variant variant = variant_for(device, step, kernel_, several, doubles_);
-  const bool asked = reaching_.word(step).has_value();
-  if (asked || (reaching_.asked && step.pass->tells_reach)) variant.module += "+WEFT_REACH";
+  const bool asked = reaching_.word(step) || (reaching_.asked() && step.pass->tells_reach);
+  const bool always = std::ranges::count(buffers_of(*step.pass), BufferId::reach_groups) > 0;
+  if (asked && !always) variant.module += "+WEFT_REACH";
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
   if (step.pass == &integrate && kernel_.kind == KernelKind::steal) return {pipeline, kernel_.queues, 1};
@@ -221,6 +222,7 @@ std::size_t GpuProgram::pipeline_for(gpu::Device& device, const PlanStep& step, 
     constants.resize(id, 0);
     constants.push_back(value);
   };
+  if (reaching_.tears && step.pass->tells_reach) set(kTearsConstant, 1);
   if (reaching_.links && step.pass->sees_links) set(kAsksLinksConstant, 1);
   if (sheet_rows_ != 0) set(kSheetRowsConstant, sheet_rows_);
   for (std::size_t k = 0; k < pipelines_.size(); ++k)

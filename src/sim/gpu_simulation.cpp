@@ -50,7 +50,7 @@ class VulkanSimulation final : public GpuSimulation {
         budget_(model_, start_state(model_), plan_.in_double()),
         free_mass_ratio_(free_mass_ratio(model_)) {
     write_blocks(buffers_, model_, plan_, perturbation_);
-    write_groups(buffers_, model_, plan_);
+    write_groups(buffers_, model_);
     write(start_state(model_));
   }
   ~VulkanSimulation() override {

@@ -81,6 +81,17 @@ State folded(const Model& model, const State& from) {
   return state;
 }
 
+/// Some links of every kind broken, here and there.
+State partly_torn(const Model& model, const State& from) {
+  constexpr double kShare = 0.04;
+  State state = from;
+  state.broken_links.assign(model.grid.count(), 0);
+  for (std::uint32_t p = 0; p < state.broken_links.size(); ++p)
+    for (std::uint32_t bit = 0; bit < 4; ++bit)
+      if (noise(4 * std::uint64_t{p} + bit) > 1.0 - 2.0 * kShare) state.broken_links[p] |= 1u << bit;
+  return state;
+}
+
 }  // namespace
 
 std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
@@ -93,6 +104,7 @@ std::vector<ProbeState> probe_states(const Model& model, const Solver& solver) {
   states.push_back({"shaken", shaken(model, states[0].state)});
   if (has_collider(model.scene)) states.push_back({"in contact", in_contact(model, states[2].state)});
   if (model.scene.self_collision) states.push_back({"folded", folded(model, states[0].state)});
+  if (model.scene.tearing) states.push_back({"torn", partly_torn(model, states[2].state)});
   return states;
 }
 

@@ -242,11 +242,13 @@ void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& wal
   const PlanStep& planned = plan_.steps[step];
   HostBuffers<T>& host = walk.host;
   const std::uint32_t row_index = plan_.table_row(planned, substep);
-  const HostBuffers<T> before = host;
   std::vector<PassResult<T>> results;
   for (const KernelRunner& with : runners_)
     if (results.empty() || planned.pass == &integrate)
       results.push_back(with.runner->run(step, host, walk.rows, row_index));
+  for (const BufferId id : results[0].outputs)  // a pass that has nothing to do leaves them as they are
+    host[id].resize(results[0].buffers[id].size());
+  const HostBuffers<T> before = host;
   const MirrorContext context{model_,    planned.constants, walk.rows[row_index],
                               row_index, planned.item,      kProbeSpeedAllowed_m_s};
   std::optional<FloatLoss> loss;

@@ -204,14 +204,15 @@ TEST(NativeBits, FastSpheresEqualTheReference) {
   }
 }
 
-/// Every probe state of `validate`, among them one in contact with everything; positions, velocities,
-/// normals.
+/// Every probe state of `validate`, among them one in contact with everything and one torn; positions,
+/// velocities, normals.
 TEST(NativeBits, ValidateFindsNoDifference) {
   for (const char* scene : {"1", "5", "tearing"}) {
     const Model model = model_of(scene, {"cloth.resolution=17"});
     const ValidationReport report = validate_native(model, find_solver("leapfrog"), {.lockstep_substeps = 8});
     // states × kernels × {1, 3 threads} × {position, velocity, normal}
-    const std::size_t states = model.scene.spheres.empty() && !model.scene.floor ? 3 : 4;
+    const std::size_t states =
+        3 + (!model.scene.spheres.empty() || model.scene.floor) + model.scene.tearing.has_value();
     EXPECT_EQ(report.rows.size(), states * native::kernels_here().size() * 2 * 3);
     for (const ValidationRow& row : report.rows)
       EXPECT_TRUE(row.ok) << row.check << ", " << row.state << ", " << row.buffer << ": " << row.max_abs;

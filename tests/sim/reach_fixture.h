@@ -50,20 +50,35 @@ inline const std::string kRisingCapsule =
 inline const std::string kLimit = "[material]\nmembrane = 40\nstrain_limit = 0.02\n";
 inline const std::string kStiffLimit = "[material]\nstrain_limit = 0.3\n";
 
+/// The same links come near the first strain, and break at the second.
+inline const std::string kStrained = "[material]\nmembrane = 40\n[tearing]\nstrain = 0.02\n";
+inline const std::string kBreaking = "[material]\nmembrane = 40\n[tearing]\nstrain = 0.01\n";
+inline const std::string kTearingBox = kFastBox + "[tearing]\nstrain = 0.2\n";
+/// Nobody looks at links where pins move: the held corner is drawn out of the cloth.
+inline const std::string kTearingPin =
+    "[[pins]]\nat = [1, 1]\nkeys = [{ time = 0, offset = [0, 0, 0] }, { time = 0.05, offset = [0.5, 0, 0] "
+    "}]\n"
+    "[tearing]\nstrain = 0.2\n";
+
 inline std::vector<ReachCase> reach_cases() {
-  return {{"a fast box", kFastBox},
-          {"a far capsule and a fast box", kFarCapsule + kFastBox},
-          {"a box and a mesh in one substep", kFastBox + kFastMesh},
-          {"a fast mesh, xpbd", kFastMesh, "xpbd"},
-          {"a rising capsule, f32k", kRisingCapsule, "leapfrog", "f32k"},
-          {"a fast box, torn", kFastBox + "[tearing]\nstrain = 0.2\n"},
-          {"a rising capsule, symplectic-euler in f64", kRisingCapsule, "symplectic-euler", "f64"},
-          {"a limit that the pin's links come to", kLimit, "leapfrog", "f32", shared::kReachLinks},
-          {"a limit that a fast box brings links to", kStiffLimit + kFastBox, "leapfrog", "f32",
-           shared::kReachLinks},
-          {"a limit and a fast box, xpbd", kLimit + kFastBox, "xpbd"},
-          {"a limit, f32k", kLimit, "leapfrog", "f32k", shared::kReachLinks},
-          {"a limit, symplectic-euler in f64", kLimit, "symplectic-euler", "f64", shared::kReachLinks}};
+  return {
+      {"a fast box", kFastBox},
+      {"a far capsule and a fast box", kFarCapsule + kFastBox},
+      {"a box and a mesh in one substep", kFastBox + kFastMesh},
+      {"a fast mesh, xpbd", kFastMesh, "xpbd"},
+      {"a rising capsule, f32k", kRisingCapsule, "leapfrog", "f32k"},
+      {"what a fast box tears", kTearingBox, "leapfrog", "f32", shared::kReachTorn},
+      {"links that come near breaking", kStrained, "leapfrog", "f32", shared::kReachTear},
+      {"links that break, f32k", kBreaking, "leapfrog", "f32k", shared::kReachTorn},
+      {"links that break, symplectic-euler in f64", kBreaking, "symplectic-euler", "f64", shared::kReachTorn},
+      {"a pin that tears", kTearingPin, "leapfrog", "f32", shared::kReachTorn},
+      {"a rising capsule, symplectic-euler in f64", kRisingCapsule, "symplectic-euler", "f64"},
+      {"a limit that the pin's links come to", kLimit, "leapfrog", "f32", shared::kReachLinks},
+      {"a limit that a fast box brings links to", kStiffLimit + kFastBox, "leapfrog", "f32",
+       shared::kReachLinks},
+      {"a limit and a fast box, xpbd", kLimit + kFastBox, "xpbd"},
+      {"a limit, f32k", kLimit, "leapfrog", "f32k", shared::kReachLinks},
+      {"a limit, symplectic-euler in f64", kLimit, "symplectic-euler", "f64", shared::kReachLinks}};
 }
 
 }  // namespace weft::test

@@ -12,6 +12,8 @@
 namespace weft::test {
 namespace {
 
+constexpr std::uint32_t kResolution = 70;  // two workgroups a row
+
 class ReachGpuTest : public ValidatedPassTest {};
 
 TEST_F(ReachGpuTest, EveryKernelEndsInTheBitsOfTheReference) {
@@ -39,8 +41,9 @@ TEST_F(ReachGpuTest, EveryPassEqualsItsMirror) {
   EXPECT_GT(rows_of(reach_model({"", kRisingCapsule}), "xpbd", "solid_contact"), 0u);
 }
 
-/// The workgroups that the first substep leaves for contact with boxes, then with meshes.
-std::array<std::uint32_t, 2> groups_after(gpu::Device& device, const Model& model) {
+/// Two words of reach_groups as the first substep's `integrate` leaves them.
+std::array<std::uint32_t, 2> groups_after(gpu::Device& device, const Model& model, std::uint32_t one,
+                                          std::uint32_t other) {
   const Plan plan = compile_plan(model, find_solver("leapfrog"));
   std::size_t step = 0;
   while (plan.steps[step].pass != &integrate) ++step;
@@ -50,15 +53,28 @@ std::array<std::uint32_t, 2> groups_after(gpu::Device& device, const Model& mode
   const auto rows = plan.solver->schedule(0.0, model.scene.solver.frame_s, plan.substeps);
   PassRunner runner(device, model, plan, Perturbation("", plan));
   const auto words = runner.run(step, host, rows, 0).buffers.words_of(BufferId::reach_groups);
-  EXPECT_EQ(words.at(shared::kReachSolids + 1), model.grid.rows());
-  return {words.at(shared::kReachSolids), words.at(shared::kReachMeshes)};
+  EXPECT_EQ(words.at(one + 1), model.grid.rows());
+  return {words.at(one), words.at(other)};
 }
 
 TEST_F(ReachGpuTest, ContactHasNoWorkgroupsWhereBodiesAreFarAway) {
-  constexpr std::uint32_t kResolution = 70;  // two workgroups a row
+  const auto groups = [](const std::string& bodies) {
+    return groups_after(device(), reach_model({"", bodies}, kResolution), shared::kReachSolids,
+                        shared::kReachMeshes);
+  };
   const std::string under = "[[boxes]]\ncenter = [0.4, 0.8, 0]\nsize = [0.1, 0.2, 0.1]\n";
-  EXPECT_EQ(groups_after(device(), reach_model({"", kFarCapsule}, kResolution)), (std::array{0u, 0u}));
-  EXPECT_EQ(groups_after(device(), reach_model({"", under}, kResolution)), (std::array{2u, 2u}));
+  EXPECT_EQ(groups(kFarCapsule), (std::array{0u, 0u}));
+  EXPECT_EQ(groups(under), (std::array{2u, 2u}));
+}
+
+// The uneven start strains links by more than half a thousandth, and by less than half.
+TEST_F(ReachGpuTest, TearHasNoWorkgroupsWhereNoLinkIsNearBreaking) {
+  const auto groups = [](const std::string& tearing) {
+    return groups_after(device(), reach_model({"", tearing}, kResolution), shared::kReachTear,
+                        shared::kReachTorn);
+  };
+  EXPECT_EQ(groups("[tearing]\nstrain = 1\n"), (std::array{0u, 0u}));
+  EXPECT_EQ(groups("[tearing]\nstrain = 0.001\n"), (std::array{2u, 0u}));
 }
 
 }  // namespace

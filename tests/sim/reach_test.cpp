@@ -1,5 +1,6 @@
-// Contact with bodies runs in those substeps in which the cloth comes near one, and the strain limit in which
-// a link comes near it; they end in the bits of passes that always run.
+// Contact with bodies runs in those substeps in which the cloth comes near one, the strain limit and tearing
+// in which a link comes near it, and a cloth is gathered as torn once it is; all of that ends in the bits of
+// passes that always run.
 #include <gtest/gtest.h>
 
 #include "reach_fixture.h"
@@ -28,7 +29,7 @@ class Counting final : public CpuSimulation<T> {
         if (step.block != Block::substep) continue;
         this->run_step(step, k);
         const auto& words = this->buffers_.words_of(BufferId::reach_groups);
-        near += step.pass->tells_reach && !words.empty() && words[case_.word] != 0 ? 1 : 0;
+        near += step.pass->swaps_state && !words.empty() && words[case_.word] != 0 ? 1 : 0;
       }
   }
 };
@@ -42,7 +43,7 @@ template <class T>
 void expect_bits_of_contact_in_every_substep(const ReachCase& c) {
   SCOPED_TRACE(c.name);
   const Model model = reach_model(c);
-  ASSERT_TRUE(compile_plan(model, find_solver(c.solver), c.precision).reaching.asked);
+  ASSERT_TRUE(compile_plan(model, find_solver(c.solver), c.precision).reaching.asked());
   Counting<T> asking(model, c, false), always(model, c, true);
   Counting<T> missing(reach_model({"", kFarCapsule, c.solver, c.precision}), c, true);
   for (Simulation* simulation : {static_cast<Simulation*>(&asking), static_cast<Simulation*>(&always),
