@@ -12,8 +12,8 @@
 READS (vec4, substeps)
 READS_TEXELS(position)
 READS_TEXELS(velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
+UPDATES(vec4, position_next)
+UPDATES(vec4, velocity_next)
 UPDATES(uint, queue_heads)  // zero before and after: workgroups done, then tiles taken of each queue
 
 layout(local_size_x_id = 12) in;  // a subgroup
@@ -34,6 +34,7 @@ void put(uint p, vec4 x, vec4 v) {
 
 #include "../shared/reach.glsl"
 #include "../shared/force.glsl"
+#define LATE_SPHERES
 #include "../shared/contact.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"

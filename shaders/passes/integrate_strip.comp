@@ -11,8 +11,8 @@
 READS (vec4, substeps)
 READS_TEXELS(position)
 READS_TEXELS(velocity)
-WRITES(vec4, position_next)
-WRITES(vec4, velocity_next)
+UPDATES(vec4, position_next)
+UPDATES(vec4, velocity_next)
 
 layout(local_size_x_id = 12) in;  // chosen by the host, as are columns and rows
 layout(push_constant) uniform Push { uint row_index; };  // which row of the substep table
@@ -32,6 +32,7 @@ void put(uint p, vec4 x, vec4 v) {
 
 #include "../shared/reach.glsl"
 #include "../shared/force.glsl"
+#define LATE_SPHERES
 #include "../shared/contact.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"

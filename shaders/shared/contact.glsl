@@ -58,7 +58,43 @@ const bool spheres = sphere_number != 0u, few_spheres = sphere_number <= 2u;
 SphereRows held_spheres[2];
 #define HOLDS_SPHERES
 
+// Kernels that march with many rows in registers have none to spare for a loop over spheres: they ask of each
+// drift whether it ends in a box round all of them, and look at those that do once the strip is done.
+#ifdef LATE_SPHERES
+const bool late_spheres = !few_spheres;
+vec3 spheres_low, spheres_high;  // corners of that box
+float spheres_leap2;             // square of the drift up to which no path that ends outside touches one [m²]
+
+// A path that ends outside has its end farther from a sphere's centre than its reach and its own length, as
+// the sphere sees it, and 1 % of both and rounding besides: sphere_contact() would do nothing.
+void hold_sphere_box(uint row) {
+  float leap = 0.25 * sphere_rows(row, 0u).place.w;
+  spheres_leap2 = 0.999 * leap * leap;
+  spheres_low = vec3(1e30);
+  spheres_high = vec3(-1e30);
+  for (uint s = 0u; s < params.sphere_count; ++s) {
+    SphereRows rows_of = sphere_rows(row, s);
+    vec3 center = rows_of.place.xyz;
+    float travel = length(rows_of.travel.xyz), place = length(center) + travel;
+    float beyond = 1.01 * (rows_of.place.w + leap + travel) + 1e-5 * place;
+    spheres_low = min(spheres_low, center - beyond);
+    spheres_high = max(spheres_high, center + beyond);
+  }
+}
+
+bool may_touch_sphere(vec3 x0, vec3 x1) {
+  vec3 moved = x1 - x0;
+  bool inside = all(greaterThan(x1, spheres_low)) && all(lessThan(x1, spheres_high));
+  return inside || !(dot(moved, moved) < spheres_leap2);
+}
+#else
+const bool late_spheres = false;
+#endif
+
 void hold_spheres(uint row) {
+#ifdef LATE_SPHERES
+  if (late_spheres) hold_sphere_box(row);
+#endif
   if (!few_spheres) return;
   if (sphere_number > 0u) held_spheres[0] = sphere_rows(row, 0u);
   if (sphere_number > 1u) held_spheres[1] = sphere_rows(row, 1u);
@@ -88,6 +124,14 @@ void sphere_contact(SphereRows rows_of, real3 x0, inout real3 x1, inout real3 v)
   v = respond(v, rows_of.velocity.xyz, n, travel.w);
 }
 
+// The floor alone.
+void touch_floor(inout real3 x1, inout real3 v) {
+  if (floor_contact && x1.y < params.floor_height_m) {
+    x1.y = params.floor_height_m;
+    v = respond(v, real3(0.0), real3(0.0, 1.0, 0.0), params.floor_friction);
+  }
+}
+
 // Spheres in scene order, then the floor, so that the floor always holds. `row` starts the dispatch's row,
 // for which hold_spheres() was called.
 void contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
@@ -95,8 +139,5 @@ void contact(uint row, real3 x0, inout real3 x1, inout real3 v) {
     for (uint s = 0u; s < params.sphere_count; ++s) sphere_contact(sphere_rows(row, s), x0, x1, v);
   if (few_spheres && sphere_number > 0u) sphere_contact(held_spheres[0], x0, x1, v);
   if (few_spheres && sphere_number > 1u) sphere_contact(held_spheres[1], x0, x1, v);
-  if (floor_contact && x1.y < params.floor_height_m) {
-    x1.y = params.floor_height_m;
-    v = respond(v, real3(0.0), real3(0.0, 1.0, 0.0), params.floor_friction);
-  }
+  touch_floor(x1, v);
 }

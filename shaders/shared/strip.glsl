@@ -21,6 +21,10 @@ vec3 shear_k[kMost + 1u];                                  // f11 and fT of colu
 bool line_edge[kMost];                                     // whether the column is a boundary line
 uint column_of[kMost + 4u];  // that is read for columns -2 … columns + 1: clamped to the cloth
 
+#ifdef LATE_SPHERES
+uint late_from, late_to;  // rows whose contact with spheres is to come: from the first to before the second
+#endif
+
 vec3 above[kMost];   // P of the row: the forces from the rows above
 vec3 f02_up[kMost];  // f02 of the row above
 
@@ -207,13 +211,40 @@ void step_row(Step s, uint j, uint first) {
     f10_left = f10;
     if (first + c < params.nx) {
       step_particle(s, F, w_own[c], x, v);
-      put(j * params.nx + first + c, vec4(x, w_own[c]), vec4(v, 0.0));
+      put(j * params.nx + first + c, vec4(x, w_own[c]), vec4(v, near_sphere ? 1.0 : 0.0));
+#ifdef LATE_SPHERES
+      late_from = near_sphere ? min(late_from, j) : late_from;
+      late_to = near_sphere ? j + 1u : late_to;
+#endif
     }
   }
 }
 
+#ifdef LATE_SPHERES
+// Contact of the particles that step_row() marked, in a loop of its own: no row is in registers any more.
+void touch_late(Step s, uint first) {
+  uint count = late_from < late_to ? (late_to - late_from) * columns : 0u;
+  for (uint k = 0u; k < count; ++k) {
+    uint i = first + k % columns, p = (late_from + k / columns) * params.nx + i;
+    if (i < params.nx && velocity_next[p].w != 0.0) {
+      vec3 x0 = SOURCE_POSITION(p).xyz, v = velocity_next[p].xyz;
+      vec4 x1 = position_next[p];
+      contact(s.row, x0, x1.xyz, v);
+#ifdef WEFT_REACH
+      look_for_bodies(x0, x1.xyz);
+#endif
+      put(p, x1, vec4(v, 0.0));
+    }
+  }
+}
+#endif
+
 // Marches the strip whose leftmost column is `first` over rows [begin, end).
 void march_strip(Step s, uint first, uint begin, uint end) {
+#ifdef LATE_SPHERES
+  late_from = 0xffffffffu;
+  late_to = 0u;
+#endif
   load_start(begin);
   begin_above(begin);
   for (uint j = begin; j < end; ++j) {
@@ -221,4 +252,7 @@ void march_strip(Step s, uint first, uint begin, uint end) {
     step_row(s, j, first);
     shift_down();
   }
+#ifdef LATE_SPHERES
+  if (late_spheres) touch_late(s, first);
+#endif
 }

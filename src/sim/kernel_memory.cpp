@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kVersion = 2;  // of the file, and of the kernels it speaks of
+constexpr int kVersion = 3;  // of the file, and of the kernels it speaks of
 constexpr std::size_t kMostBytes = 1 << 20;
 
 /// The file's content, or a fresh one when there is none that can be used.

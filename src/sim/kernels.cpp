@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "passes/integrate.h"
 #include "passes/passes.h"
 #include "plan/buffers.h"
 #include "sim/frame_commands.h"
@@ -56,12 +57,15 @@ std::uint32_t tiles_of(const gpu::Device& device, const Range& range, std::uint3
 
 /// Several queues a thread where there are tiles enough: a workgroup takes at most twice its share, so that a
 /// fast thread's later ones can take what a slow thread leaves. No invocation may come near kMostTurns.
-Kernel steal_kernel(const gpu::Device& device, const Range& range, std::uint32_t rows) {
+Kernel steal_kernel(const gpu::Device& device, const PlanStep& step, std::uint32_t rows) {
   constexpr std::uint32_t kColumns = 4, kQueuesPerThread = 4;
   const std::uint32_t threads = std::max(std::thread::hardware_concurrency(), 1u);
-  const std::uint32_t tiles = tiles_of(device, range, kColumns, rows);
+  const std::uint32_t tiles = tiles_of(device, step.range, kColumns, rows);
   const std::uint32_t wanted = tiles < 2 * kQueuesPerThread * threads ? threads : kQueuesPerThread * threads;
-  const std::uint32_t needed = 2 * tiles * (rows + 4) / kMostTurns + 1;
+  // Where spheres are looped over: at worst every particle of a tile, and all spheres for each.
+  const bool looped = step.constants[kHasSpheres].value >= kSpheresLooped;
+  const std::uint64_t turns = rows + 4 + (looped ? rows * kColumns * (1 + shared::kMaxSpheres) : 0);
+  const auto needed = static_cast<std::uint32_t>(2 * tiles * turns / kMostTurns + 1);
   return {.kind = KernelKind::steal,
           .columns = kColumns,
           .rows = rows,
@@ -123,10 +127,10 @@ std::vector<KernelCandidate> kernel_candidates(const gpu::Device& device, const 
   const Kernel direct = direct_kernel(device, plan);
   std::vector<Kernel> kernels{direct};
   if (const PlanStep* step = substep_integrate(plan); step != nullptr) {
-    kernels = {steal_kernel(device, step->range, 16),
+    kernels = {steal_kernel(device, *step, 16),
                {.kind = KernelKind::strip, .columns = 4, .rows = 16},
                {.kind = KernelKind::bands, .columns = 4, .rows = 16, .substeps = 4, .bands = 4},
-               steal_kernel(device, step->range, step->range.y < 192 ? 8 : 32),
+               steal_kernel(device, *step, step->range.y < 192 ? 8 : 32),
                {.kind = KernelKind::texel, .rows = direct.rows},
                direct,
                {.kind = KernelKind::strip, .columns = 4, .rows = 32},

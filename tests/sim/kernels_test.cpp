@@ -16,6 +16,7 @@ namespace weft::test {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 constexpr const char* kOthers[] = {"texel", "strip", "steal", "bands"};
 
@@ -63,6 +64,22 @@ Model scene_of_shape(const std::string& file, std::uint32_t resolution, double h
 TEST_F(KernelsTest, equal_the_direct_one_on_every_scene) {
   for (const AssetInfo& asset : numbered_scenes())
     expect_equal_kernels(scene_of_shape(asset.file, 33, 1.0), asset.name);
+}
+
+// Three spheres or more are looked at once a strip is done, in the rows that came near one.
+TEST_F(KernelsTest, equal_the_direct_one_with_spheres_all_about_it) {
+  SceneOverrides overrides;
+  overrides.set = {
+      "cloth.resolution=40", "cloth.center=[0, 0.3, 0]",
+      "spheres=[{center=[0, 0.1, 0], radius=0.2, friction=0.3}, {center=[0.4, 0.4, 0.4], radius=0.12, "
+      "velocity=[0, -20, 0]}, {center=[-0.4, 0.2, 0.1], radius=0.1, friction=1}]"};
+  const Model model = build_model(load_scene(find_scene("5"), overrides).scene);
+  const auto direct = with(model, "direct");
+  const State expected = ran(*direct);
+  overrides.set.back() = "spheres=[]";
+  const auto without = with(build_model(load_scene(find_scene("5"), overrides).scene), "direct");
+  EXPECT_NE(state_hash(ran(*without)), state_hash(expected)) << "nothing was touched";
+  for (const char* kernel : {"strip", "steal"}) expect_same(ran(*with(model, kernel)), expected, kernel);
 }
 
 TEST_F(KernelsTest, equal_the_direct_one_with_every_effect_in_contact) {
@@ -201,11 +218,21 @@ TEST_F(KernelChoiceTest, without_a_name_is_what_an_earlier_trial_found) {
 }
 
 // llvmpipe ends all loops of an invocation after 65 535 turns: no workgroup may take so many tiles, and all
-// together must be able to take every one.
+// together must be able to take every one. With three spheres or more every particle may be looked at once
+// more, and beside each of at most 64 spheres.
 TEST_F(KernelChoiceTest, lets_no_workgroup_of_steal_run_into_the_limit_of_loops) {
-  for (const std::uint32_t n : {2u, 64u, 700u, 2896u}) {
+  std::string three;
+  for (const int x : {-9, 0, 9}) three += fmt::format("[[spheres]]\ncenter = [{}, 0, 0]\nradius = 0.2\n", x);
+  for (const auto& [n, spheres] : {std::pair{2u, ""s},
+                                   {64u, ""s},
+                                   {700u, ""s},
+                                   {2896u, ""s},
+                                   {64u, three},
+                                   {700u, three},
+                                   {2896u, three}}) {
     const Model model = build_model(
-        parse_scene(fmt::format("[cloth]\nresolution = {}\n[solver]\nsubsteps = 9\n", n), "n.toml").scene);
+        parse_scene(fmt::format("[cloth]\nresolution = {}\n[solver]\nsubsteps = 9\n{}", n, spheres), "n.toml")
+            .scene);
     const Plan plan = compile_plan(model, find_solver("leapfrog"));
     for (const KernelCandidate& candidate : kernel_candidates(device(), plan)) {
       const Kernel& kernel = candidate.kernel;
@@ -213,7 +240,8 @@ TEST_F(KernelChoiceTest, lets_no_workgroup_of_steal_run_into_the_limit_of_loops)
       const std::uint64_t wide = kernel.columns * device().info().subgroup_size;
       const std::uint64_t tiles = (n + wide - 1) / wide * ((n + kernel.rows - 1) / kernel.rows);
       const std::uint64_t in_queue = (tiles + kernel.queues - 1) / kernel.queues;
-      EXPECT_LT(2 * in_queue * (kernel.rows + 1) + 2 * kernel.queues, 65'535u)
+      const std::uint64_t looks = spheres.empty() ? 0 : kernel.rows * kernel.columns * (1 + 64);
+      EXPECT_LT(2 * in_queue * (kernel.rows + 1 + looks) + 2 * kernel.queues, 65'535u)
           << describe(kernel) << ", " << n;
       EXPECT_GE(kernel.queues * 2 * in_queue, tiles);
     }
