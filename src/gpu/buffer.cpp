@@ -84,9 +84,18 @@ void Buffer::check_range(std::size_t bytes, VkDeviceSize offset, const char* ver
 }
 
 void Buffer::write(std::span<const std::byte> data, VkDeviceSize offset) {
+  device_->wait(device_->submitted());
+  write_unused(data, offset);
+}
+
+void Buffer::read(std::span<std::byte> data, VkDeviceSize offset) const {
+  device_->wait(device_->submitted());
+  read_finished(data, offset);
+}
+
+void Buffer::write_unused(std::span<const std::byte> data, VkDeviceSize offset) {
   check_range(data.size(), offset, "write");
   if (data.empty()) return;
-  device_->wait_idle();
   if (allocation_.mapped != nullptr) {
     std::memcpy(allocation_.mapped + offset, data.data(), data.size());
     return;
@@ -100,10 +109,9 @@ void Buffer::write(std::span<const std::byte> data, VkDeviceSize offset) {
   }
 }
 
-void Buffer::read(std::span<std::byte> data, VkDeviceSize offset) const {
+void Buffer::read_finished(std::span<std::byte> data, VkDeviceSize offset) const {
   check_range(data.size(), offset, "read");
   if (data.empty()) return;
-  device_->wait_idle();
   // Uncached memory is read over the bus word by word; a copy on the device first is far faster.
   if (allocation_.mapped != nullptr && (allocation_.cached || data.size() <= 256)) {
     std::memcpy(data.data(), allocation_.mapped + offset, data.size());

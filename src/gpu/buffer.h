@@ -68,6 +68,10 @@ class Buffer {
   /// a submission of its own. Returns when done. For per-frame data write `mapped()` of upload memory.
   void write(std::span<const std::byte> data, VkDeviceSize offset = 0);
   void read(std::span<std::byte> data, VkDeviceSize offset = 0) const;
+  /// The same for who knows that nothing submitted uses the buffer, or only reads what is read here: a
+  /// picture that is being drawn is not waited for.
+  void write_unused(std::span<const std::byte> data, VkDeviceSize offset = 0);
+  void read_finished(std::span<std::byte> data, VkDeviceSize offset = 0) const;
 
   /// A view of the whole buffer for samplerBuffer or imageBuffer, made at the first call; the usage must
   /// hold VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT or VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT.

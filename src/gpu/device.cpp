@@ -29,7 +29,7 @@ struct Device::Impl {
   VkQueue queue = VK_NULL_HANDLE;
   VkSemaphore timeline = VK_NULL_HANDLE;
   std::uint32_t timestamp_bits = 0;
-  std::mutex submitting;
+  mutable std::mutex submitting, making_cache;
   std::uint64_t submitted = 0;
   std::uint64_t submissions = 0;
   std::optional<std::uint64_t> loss_after;
@@ -174,7 +174,10 @@ const VkPhysicalDeviceLimits& Device::limits() const { return impl_->limits; }
 std::uint64_t Device::buffer_bytes_max() const { return impl_->buffer_bytes_max; }
 Allocator& Device::allocator() { return *impl_->allocator; }
 VkSemaphore Device::timeline() const { return impl_->timeline; }
-std::uint64_t Device::submitted() const { return impl_->submitted; }
+std::uint64_t Device::submitted() const {
+  const std::lock_guard lock(impl_->submitting);
+  return impl_->submitted;
+}
 bool Device::validating() const { return impl_->validating; }
 std::uint32_t Device::timestamp_valid_bits() const { return impl_->timestamp_bits; }
 double Device::timestamp_ns() const {
@@ -182,6 +185,7 @@ double Device::timestamp_ns() const {
 }
 
 PipelineCache& Device::pipeline_cache() {
+  const std::lock_guard lock(impl_->making_cache);
   if (!impl_->cache) impl_->cache = std::make_unique<PipelineCache>(*this);
   return *impl_->cache;
 }
@@ -233,12 +237,18 @@ VkResult Device::present(const VkPresentInfoKHR& info) {
   return vkQueuePresentKHR(impl_->queue, &info);
 }
 
-void Device::wait(std::uint64_t value) {
+void Device::wait(std::uint64_t value) { wait_for(value, -1.0); }
+
+bool Device::wait_for(std::uint64_t value, double wait_s) {
   VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
   info.semaphoreCount = 1;
   info.pSemaphores = &impl_->timeline;
   info.pValues = &value;
-  check(vkWaitSemaphores(impl_->device, &info, UINT64_MAX), "wait for the device");
+  const std::uint64_t patience_ns = wait_s < 0.0 ? UINT64_MAX : static_cast<std::uint64_t>(1e9 * wait_s);
+  const VkResult result = vkWaitSemaphores(impl_->device, &info, patience_ns);
+  if (result == VK_TIMEOUT) return false;
+  check(result, "wait for the device");
+  return true;
 }
 
 std::uint64_t Device::completed() {
@@ -248,7 +258,7 @@ std::uint64_t Device::completed() {
 }
 
 void Device::wait_idle() {
-  wait(impl_->submitted);
+  wait(submitted());
   // The timeline knows nothing of pictures handed over to be shown: their semaphores are waited for after it.
   const std::lock_guard lock(impl_->submitting);
   check(vkQueueWaitIdle(impl_->queue), "wait for the device's queue");

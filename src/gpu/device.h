@@ -55,7 +55,8 @@ struct SubmitSemaphores {
   VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// One device with one queue. Use from one thread at a time.
+/// One device with one queue. Any thread may make, fill and free buffers, pipelines and commands of its own
+/// and submit them; what it made, one thread at a time uses.
 ///
 /// Every optional feature that DeviceInfo reports is enabled when it is there. Debug switches in the
 /// environment: WEFT_FORCE_STAGING=1; WEFT_WITHOUT_FLOAT64=1 lets every device lack float64;
@@ -95,6 +96,8 @@ class Device {
   /// Hands a picture over to be shown. Returns what vkQueuePresentKHR says, with no error thrown.
   VkResult present(const VkPresentInfoKHR&);
   void wait(std::uint64_t value);
+  /// Waits so long at most [s]; negative: as long as it takes. Returns whether the device has come that far.
+  bool wait_for(std::uint64_t value, double wait_s);
   std::uint64_t completed();        ///< latest finished timeline value
   std::uint64_t submitted() const;  ///< latest timeline value handed out
   void wait_idle();  ///< for all that was submitted, and for semaphores that a picture waits on

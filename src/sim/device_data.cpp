@@ -102,14 +102,14 @@ void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
         BufferId::strain_limits, BufferId::distance_grids, BufferId::tethers}) {
     if (!buffers.has(id)) continue;
     const Bytes bytes = block_bytes(id, model, plan, perturbation);
-    for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write(bytes);
+    for (std::uint32_t slot = 0; slot < slot_count(id); ++slot) buffers.at(id, slot).write_unused(bytes);
   }
 }
 
 void write_groups(GpuBuffers& buffers, const Model& model) {
   if (!buffers.has(BufferId::collision_state)) return;
   const std::vector<std::uint32_t> words = initial_collision_state(model);
-  buffers.at(BufferId::collision_state).write(std::as_bytes(std::span(words)));
+  buffers.at(BufferId::collision_state).write_unused(std::as_bytes(std::span(words)));
 }
 
 void write_state(GpuBuffers& buffers, Parity parity, const Model& model, const Plan& plan,
@@ -130,7 +130,7 @@ State read_state(const GpuBuffers& buffers, Parity parity, const Model& model, c
   return in_precision(plan, [&]<class T>(T) {
     auto host = sized_for_state<T>(buffers, model, plan);
     for (const BufferId id : state_buffers(buffers))
-      buffers.at(at_parity(id, parity)).read(bytes_in(host, id));
+      buffers.at(at_parity(id, parity)).read_finished(bytes_in(host, id));
     return store_state(host, time_s);
   });
 }
@@ -140,7 +140,7 @@ void write_energy_share(GpuBuffers& buffers, std::uint32_t slot, const Plan& pla
   in_precision(plan, [&]<class T>(T) {
     const T share = static_cast<T>(energy_share_s2_m2);
     buffers.at(BufferId::params, slot)
-        .write(std::as_bytes(std::span(&share, 1)), offsetof(shared::ParamsOf<T>, energy_share_s2_m2));
+        .write_unused(std::as_bytes(std::span(&share, 1)), offsetof(shared::ParamsOf<T>, energy_share_s2_m2));
   });
 }
 
@@ -150,11 +150,11 @@ State read_kept(const GpuBuffers& buffers, const Model& model, const Plan& plan,
     for (const auto& [from, to] : {std::pair{BufferId::kept_position, BufferId::position},
                                    std::pair{BufferId::kept_velocity, BufferId::velocity}}) {
       kept[to].resize(model.grid.count());
-      buffers.at(from).read(std::as_writable_bytes(std::span(kept[to])));
+      buffers.at(from).read_finished(std::as_writable_bytes(std::span(kept[to])));
     }
     if (buffers.has(BufferId::broken_links)) {  // torn since is torn
       kept.words_of(BufferId::broken_links).resize(model.grid.count());
-      buffers.at(BufferId::broken_links).read(bytes_in(kept, BufferId::broken_links));
+      buffers.at(BufferId::broken_links).read_finished(bytes_in(kept, BufferId::broken_links));
     }
     return store_state(kept, time_s);
   });

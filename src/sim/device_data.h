@@ -1,4 +1,5 @@
 // What the host computes for a plan's buffers on a device and reads back from them, in the plan's precision.
+// The caller has waited for the simulation; pictures of it are waited for where what they show is written.
 #pragma once
 #include <cstddef>
 #include <span>

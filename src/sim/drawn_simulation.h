@@ -39,6 +39,12 @@ class DrawnSimulation : public Simulation {
   virtual void begin_frame(double frame_s, std::uint32_t substeps) = 0;
   /// Begins or awaits the next part of the frame, at most about 50 ms. Returns whether more is left.
   virtual bool continue_frame() = 0;
+  /// Waits so long at most [s] for the part that continue_frame() began. Returns whether it is finished: what
+  /// else asks for the state waits for it in any case.
+  virtual bool await_part(double wait_s) = 0;
+  /// Milliseconds that the latest part took that await_part() or wait() found finished, without what the
+  /// device did before it.
+  virtual double part_ms() const = 0;
   /// In the middle of a frame: makes draw_buffers() show the state as it is by now. Waits for it.
   virtual void refresh_normals() = 0;
 

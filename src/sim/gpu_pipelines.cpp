@@ -23,11 +23,16 @@ std::string GpuPipelines::built(const std::string& module) const {
 std::shared_ptr<const gpu::ComputePipeline> GpuPipelines::get(const std::string& module,
                                                               const std::string& name,
                                                               const std::vector<std::uint32_t>& constants) {
-  std::shared_ptr<const gpu::ComputePipeline>& pipeline = pipelines_[{module, constants}];
-  if (!pipeline)
-    pipeline = std::make_shared<const gpu::ComputePipeline>(device_, name, gpu::load_spirv(built(module)),
-                                                            constants);
-  return pipeline;
+  const Key key{module, constants};
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = pipelines_.find(key); known != pipelines_.end()) return known->second;
+  }
+  // Compiling may take seconds: nobody else waits for it. Where two compile the same, the first is kept.
+  auto made =
+      std::make_shared<const gpu::ComputePipeline>(device_, name, gpu::load_spirv(built(module)), constants);
+  const std::lock_guard lock(mutex_);
+  return pipelines_.try_emplace(key, std::move(made)).first->second;
 }
 
 }  // namespace weft

@@ -55,8 +55,8 @@ class VulkanSimulation final : public GpuSimulation {
   }
   ~VulkanSimulation() override {
     try {
-      wait();
-    } catch (...) {  // a lost device has nothing left to wait for
+      device_.wait(device_.submitted());  // pictures of it, too
+    } catch (...) {                       // a lost device has nothing left to wait for
     }
   }
   VulkanSimulation(const VulkanSimulation&) = delete;
@@ -96,6 +96,8 @@ class VulkanSimulation final : public GpuSimulation {
   FrameStats advance(double frame_s, std::uint32_t substeps) override;
   void begin_frame(double frame_s, std::uint32_t substeps) override;
   bool continue_frame() override;
+  bool await_part(double wait_s) override;
+  double part_ms() const override { return part_ms_; }
   void refresh_normals() override;
   State read() override;
   void write(const State&) override;
@@ -151,6 +153,7 @@ class VulkanSimulation final : public GpuSimulation {
   double free_mass_ratio_;
   double hand_m_s_ = 0.0;  // speed of the fastest particle placed since the latest frame began
   std::vector<double> step_ms_;
+  double part_ms_ = 0.0;
   Parity parity_ = 0;
   std::uint64_t frames_ = 0;
   std::uint32_t submits_ = 0;
@@ -161,7 +164,7 @@ std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
   if (!model_.scene.self_collision) return std::nullopt;
   wait();
   std::array<std::uint32_t, shared::kCollisionStateWords> words{};
-  buffers_.at(BufferId::collision_state).read(std::as_writable_bytes(std::span(words)));
+  buffers_.at(BufferId::collision_state).read_finished(std::as_writable_bytes(std::span(words)));
   return report_of(words);
 }
 
@@ -171,7 +174,7 @@ void VulkanSimulation::write_allowance(std::uint32_t slot) {
 
 void VulkanSimulation::look() {
   std::array<std::uint32_t, shared::kWatchStateWords> words{};
-  buffers_.at(BufferId::watch_state).read(std::as_writable_bytes(std::span(words)));
+  buffers_.at(BufferId::watch_state).read_finished(std::as_writable_bytes(std::span(words)));
   log_.look(words);
 }
 
@@ -183,7 +186,7 @@ void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::
     throw error(Exit::internal,
                 "a frame of {} substeps needs {} rows; the plan of {} substeps has room for {}", substeps,
                 rows.size(), plan_.substeps, substep_row_capacity(plan_.row_count()));
-  buffer.write(table);
+  buffer.write_unused(table);
 }
 
 void VulkanSimulation::submit(FrameCommands::Chunk& chunk, Slot& slot) {
@@ -212,6 +215,7 @@ void VulkanSimulation::finish(Slot& slot) {
     step_ms_ = slot.times.result();
   else  // the wall clock is an upper bound: the submits also waited for others
     total_ms = std::chrono::duration<double, std::milli>(Clock::now() - slot.start).count();
+  part_ms_ = total_ms;
   pacer_.measured(dispatches, total_ms);
   slot.chunks.clear();
 }
@@ -230,12 +234,11 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
   }
   const std::uint32_t slot_index = static_cast<std::uint32_t>(frames_++ % kFrameSlots);
   Slot& slot = slots_[slot_index];
-  finish(slot);
+  wait();  // for the verdict on all that was computed; not for pictures of it
   slot.times = StepTimes(plan_);
   write_table(frame_s, substeps, slot_index);
   budget_.elapse(model_.scene, frame_s, substeps, std::exchange(hand_m_s_, 0.0));
   write_allowance(slot_index);
-  look();
   frame_ = {.slot = slot_index,
             .substeps = substeps,
             .done = 0,
@@ -248,6 +251,7 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
 
 bool VulkanSimulation::continue_frame() {
   if (!frame_.order) return false;
+  if (pacer_.learning()) finish(slots_[frame_.slot]);
   const DispatchOrder& order = *frame_.order;
   const std::uint32_t count = std::min(pacer_.chunk(), order.count() - frame_.done);
   const std::uint32_t n = order.independent_of_substeps(frame_.done, count) ? 0 : frame_.substeps;
@@ -255,13 +259,19 @@ bool VulkanSimulation::continue_frame() {
   submit(chunk, slots_[frame_.slot]);
   frame_.stats.dispatches += chunk.dispatches;
   frame_.done += count;
-  if (pacer_.learning()) finish(slots_[frame_.slot]);
   if (frame_.done < order.count()) {
     time_s_ = frame_.start_s + frame_.length_s * order[frame_.done].substep / frame_.substeps;
     return true;
   }
   end_frame();
   return false;
+}
+
+bool VulkanSimulation::await_part(double wait_s) {
+  for (const Slot& slot : slots_)
+    if (!slot.chunks.empty() && !device_.wait_for(slot.last_submit, wait_s)) return false;
+  wait();
+  return true;
 }
 
 void VulkanSimulation::end_frame() {
@@ -284,7 +294,7 @@ void VulkanSimulation::forget_lists() {
   if (!model_.scene.self_collision) return;
   const std::uint32_t no = 0;
   buffers_.at(BufferId::collision_state)
-      .write(std::as_bytes(std::span(&no, 1)), shared::kListsArmed * sizeof no);
+      .write_unused(std::as_bytes(std::span(&no, 1)), shared::kListsArmed * sizeof no);
 }
 
 void VulkanSimulation::write(const State& state) {
@@ -297,7 +307,7 @@ void VulkanSimulation::write(const State& state) {
   forget_lists();
   log_.begin(time_s_);
   const std::array<std::uint32_t, shared::kWatchStateWords> sound{};
-  buffers_.at(BufferId::watch_state).write(std::as_bytes(std::span(sound)));
+  buffers_.at(BufferId::watch_state).write_unused(std::as_bytes(std::span(sound)));
   run_frame_end(Watched::yes);
   look();
 }

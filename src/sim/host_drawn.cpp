@@ -24,6 +24,10 @@ Clock::duration duration_of(double wall_s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wall_s));
 }
 
+double milliseconds_since(Clock::time_point began) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+}
+
 class HostDrawn final : public HostDrawnSimulation {
  public:
   HostDrawn(gpu::Device& device, std::unique_ptr<HostSimulation> simulation)
@@ -92,6 +96,8 @@ class HostDrawn final : public HostDrawnSimulation {
   bool continue_frame() override;
   /// Nothing is left behind: the thread goes on by itself.
   void wait() override {}
+  bool await_part(double) override { return true; }
+  double part_ms() const override { return part_ms_; }
   void refresh_normals() override;
 
   FramesDone go_on(const OwedFrames& frames) override;
@@ -140,7 +146,7 @@ class HostDrawn final : public HostDrawnSimulation {
   DrawPairs::Taken writing_ = pairs_.take();  ///< the thread's while computing_ is set
   DrawPairs::Taken ready_ = pairs_.take();    ///< where the latest picture is, if is_ready_
   bool is_ready_ = false;
-  double ready_time_s_ = 0.0, shown_time_s_ = 0.0;
+  double ready_time_s_ = 0.0, shown_time_s_ = 0.0, part_ms_ = 0.0;
   bool under_way_ = false;                       ///< a frame is begun and not done
   double frame_start_s_ = 0.0, frame_ms_ = 0.0;  ///< of that one
   bool running_ = false;                         ///< the thread may compute
@@ -218,6 +224,7 @@ void HostDrawn::begin_frame(double frame_s, std::uint32_t substeps) {
 }
 
 bool HostDrawn::continue_frame() {
+  const Clock::time_point began = Clock::now();
   Lock lock(mutex_);
   by_itself_ = false;
   if (under_way_ && !running_) {
@@ -225,6 +232,7 @@ bool HostDrawn::continue_frame() {
     changed_.notify_all();
   }
   changed_.wait_for(lock, kPatience, [&] { return !under_way_ || failure_; });
+  part_ms_ = milliseconds_since(began);
   rethrow();
   if (under_way_) return true;
   ended_ = false;
@@ -321,7 +329,7 @@ void HostDrawn::compute_part(Lock& lock) {
   } catch (...) {
     failure = std::current_exception();
   }
-  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+  const double ms = milliseconds_since(began);
   lock.lock();
   computing_ = false;
   failure_ = failure;
