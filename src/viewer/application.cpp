@@ -156,9 +156,10 @@ void Application::run() {
     place_scene();
     const bool had_input = window_.has_events();
     handle_input(elapsed_s);
+    follow_change();
     const double budget_s = std::clamp(1e-3 * painter_.draw_ms(), kBudgetLeast_s, kBudgetMost_s);
     attempt([&] { running_.advance(elapsed_s, budget_s); });
-    if (!pending_) attempt([&] { running_.keep_pace(); });
+    if (!pending_ && !running_.changing()) attempt([&] { running_.keep_pace(); });
     if (!running_.paused()) running_.measure();
     attempt([&] { costs_.follow(running_); });
     attempt([&] { find_kernel(elapsed_s); });
@@ -170,6 +171,7 @@ void Application::run() {
   }
   if (!options_.screenshot.empty()) {
     view_.screenshot = true;
+    running_.settle();
     gui_.begin_frame();
     panels_.draw(running_, running_.scene(), facts(), view_);
     paint();
@@ -233,7 +235,7 @@ void Application::handle_panels(const PanelWishes& wishes) {
     if (wishes.present_mode) swapchain_.set_present_mode(*wishes.present_mode);
     if (wishes.material) {
       const std::string text = fmt::format("[cloth]\n[material]\npreset = \"{}\"\n", *wishes.material);
-      pending_ = running_.scene();
+      if (!pending_) pending_ = running_.wanted();
       pending_->material = parse_scene(text, *wishes.material).scene.material;
     }
     if (wishes.scene) pending_ = *wishes.scene;
@@ -259,7 +261,7 @@ void Application::show_accuracy() {
     if (wishes.cancel_study) accuracy_->cancel_study();
     if (!wishes.setting) wishes.setting = accuracy_->wanted();
     if (!wishes.setting) return;
-    Scene next = pending_.value_or(running_.scene());
+    Scene next = pending_.value_or(running_.wanted());
     set_setting(*wishes.setting, next);
     pending_.reset();
     running_.apply(next);
@@ -267,13 +269,25 @@ void Application::show_accuracy() {
   });
 }
 
-/// A slider that is dragged applies at once while that is quick, else when it is let go.
+/// A change that is refused counts, too: it is answered.
+void Application::follow_change() {
+  attempt([&] { running_.follow_change(); });
+  if (was_changing_ && !running_.changing()) ++rebuilds_;
+  apply_pending(false);
+  was_changing_ = running_.changing();
+}
+
+/// A slider that is dragged applies at once while that is quick, else when it is let go; one change at a
+/// time.
 void Application::apply_pending(bool edit_ended) {
-  constexpr double kQuick_ms = 80.0;
-  if (!pending_ || (!edit_ended && running_.figures().rebuild_ms > kQuick_ms)) return;
+  constexpr double kQuick_ms = 150.0;
+  edit_ended_ = pending_ && (edit_ended_ || edit_ended);
+  const bool waits = running_.changing() || (!edit_ended_ && running_.figures().rebuild_ms > kQuick_ms);
+  if (!pending_ || waits) return;
+  edit_ended_ = false;
   const Scene next = *std::exchange(pending_, std::nullopt);
-  attempt([&] { running_.apply(next); });
-  ++rebuilds_;
+  attempt([&] { running_.begin_change(next); });
+  was_changing_ = running_.changing();
 }
 
 void Application::open(const std::string& which) {
@@ -364,25 +378,9 @@ void Application::paint() {
 }
 
 void Application::find_kernel(double elapsed_s) {
-  if (pending_ || running_.hand().holds()) return;
+  if (pending_ || running_.changing() || running_.hand().holds()) return;
   const std::string found = finder_.follow(running_, elapsed_s);
   if (!found.empty()) view_.say(found, 6.0);
-}
-
-PanelFacts Application::facts() const {
-  PanelFacts facts = constant_facts_;
-  facts.pictures_per_s = pictures_per_s_;
-  facts.draw_ms = painter_.draw_ms();
-  facts.scale = painter_.scale();
-  facts.share = share_.text(picture_s_, paint_s_, painter_.scale());
-  facts.automatic_scale = painter_.automatic_scale();
-  facts.present_mode = swapchain_.present_mode();
-  facts.costs = &costs_;
-  facts.trying = finder_.trying();
-  if (running_.on_gpu() != nullptr)
-    facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
-  if (facts.validating) facts.validation_messages = device_.validation_messages().size();
-  return facts;
 }
 
 }  // namespace weft

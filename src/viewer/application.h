@@ -50,6 +50,7 @@ class Application {
   void open(const std::string& which);
   void reload();
   void apply_pending(bool edit_ended);
+  void follow_change();
   void toggle_video();
   void save_screenshot(const Picture&);
   void end_film();
@@ -84,6 +85,8 @@ class Application {
   std::unique_ptr<Accuracy> accuracy_;  // while its panel is open
   std::array<float, 4> resolution_slider_{}, error_slider_{}, study_button_{};
   std::optional<Scene> pending_;
+  bool edit_ended_ = false;    ///< that led to it
+  bool was_changing_ = false;  ///< a change is begun that is not counted yet
   std::unique_ptr<Film> film_;
   bool scale_was_automatic_ = false;
   Clock::time_point start_ = Clock::now(), latest_ = start_, next_turn_ = start_, film_start_ = start_,

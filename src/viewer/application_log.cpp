@@ -1,4 +1,4 @@
-// The line of the viewer's log: everything a test or a bug report wants to know of the window.
+// What the window tells of itself: to its panels, and in the log's line to a test or a bug report.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +16,22 @@ const char* accuracy_text(const Accuracy* accuracy) {
 }
 
 }  // namespace
+
+PanelFacts Application::facts() const {
+  PanelFacts facts = constant_facts_;
+  facts.pictures_per_s = pictures_per_s_;
+  facts.draw_ms = painter_.draw_ms();
+  facts.scale = painter_.scale();
+  facts.share = share_.text(picture_s_, paint_s_, painter_.scale());
+  facts.automatic_scale = painter_.automatic_scale();
+  facts.present_mode = swapchain_.present_mode();
+  facts.costs = &costs_;
+  facts.trying = finder_.trying();
+  if (running_.on_gpu() != nullptr)
+    facts.kernels = fitting_kernel_names(device_, running_.simulation().plan());
+  if (facts.validating) facts.validation_messages = device_.validation_messages().size();
+  return facts;
+}
 
 /// What only an open accuracy panel has.
 std::string Application::accuracy_figures() const {

@@ -154,6 +154,8 @@ void Controls::press_left(const InputEvent& event, RunningScene& running, ViewSt
     pin_under_pointer(running, view);
     return;
   }
+  running.settle();
+  pressed_version_ = running.shown_version();
   pressed_on_ = pick_cloth(running.model().grid, running.simulation().read(), ray(view));
   if (!pressed_on_) drag_ = Drag::orbit;
 }
@@ -163,6 +165,12 @@ void Controls::move(const InputEvent& event, RunningScene& running, ViewState& v
   x_ = event.x;
   y_ = event.y;
   if (pressed_on_ && drag_ == Drag::none && std::hypot(x_ - press_x_, y_ - press_y_) >= kDragBegins) {
+    running.settle();
+    if (pressed_version_ != running.shown_version()) {  // another cloth than the one pressed on
+      pressed_on_.reset();
+      drag_ = Drag::orbit;
+      return;
+    }
     const State state = running.simulation().read();
     pressed_on_->point = state.position[pressed_on_->particle];  // it may have moved since the press
     running.grab(state, *pressed_on_);
@@ -182,6 +190,7 @@ void Controls::pull(RunningScene& running, const ViewState& view) {
 }
 
 void Controls::pin_under_pointer(RunningScene& running, ViewState& view) {
+  running.settle();
   const State state = running.simulation().read();
   std::uint32_t particle = 0;
   if (running.hand().holds()) {

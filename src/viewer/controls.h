@@ -46,7 +46,8 @@ class Controls {
   Window& window_;
   Gui& gui_;
   Drag drag_ = Drag::none;
-  std::optional<Pick> pressed_on_;  ///< the cloth under the last press
+  std::uint64_t pressed_version_ = 0;  ///< of the cloth that it is part of
+  std::optional<Pick> pressed_on_;     ///< the cloth under the last press
   double x_ = 0, y_ = 0, press_x_ = 0, press_y_ = 0;
   Clock::time_point press_time_{};
 };

@@ -45,8 +45,8 @@ void PictureShare::look(double wall_s, bool may, bool slow) {
   }
 }
 
-double PictureShare::period_s(double display_s, double paint_s) const {
-  const double fitting_s = std::min(paint_s / kSteps[step_].wall_share, kLongestPeriod_s);
+double PictureShare::period_s(double display_s, double paint_s, double part_s) const {
+  const double fitting_s = std::min(paint_s / kSteps[step_].wall_share, kLongestPeriod_s - part_s);
   return std::max({display_s, 1.0 / kSteps[step_].pictures_per_s, step_ > 0 ? fitting_s : 0.0});
 }
 

@@ -20,7 +20,8 @@ class PictureShare {
   /// Wall time from one picture to the next [s].
   /// @param display_s  what the display would have
   /// @param paint_s    what the main loop spends on a picture
-  double period_s(double display_s, double paint_s) const;
+  /// @param part_s     what a picture that is due may still have to wait for
+  double period_s(double display_s, double paint_s, double part_s = 0.0) const;
   /// The largest share of the window's pixels, along each side, that the scene may be drawn with.
   double scale_most() const;
   /// How many of the cloth's cells may be drawn along each side: corners are the cores' work too.
@@ -29,7 +30,7 @@ class PictureShare {
   /// @param scale  that pictures are drawn with
   std::string text(double display_s, double paint_s, double scale) const;
 
-  static constexpr double kLongestPeriod_s = 0.18;  ///< however long a picture takes
+  static constexpr double kLongestPeriod_s = 0.13;  ///< however long a picture takes
   static constexpr double kPatience_s = 1.5;        ///< of slow motion before a step down
   static constexpr double kRest_s = 6.0;  ///< without it before a step up is tried; doubled when it failed
 

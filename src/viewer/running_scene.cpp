@@ -45,6 +45,8 @@ RunningScene::RunningScene(gpu::Device& device, SceneOverrides overrides, const 
 
 void RunningScene::open(const std::string& which) {
   const LoadedScene loaded = load_scene(find_scene(which), overrides_);
+  change_.reset();  // it is of the scene before
+  finish_part();
   release();  // before anything can fail: what runs on must not stay held
   const std::vector<HandPin> pins = std::exchange(hand_pins_, {});
   try {
@@ -60,6 +62,7 @@ void RunningScene::open(const std::string& which) {
 
 void RunningScene::reload(bool new_shaders) {
   const LoadedScene loaded = load_scene(find_scene(which_), overrides_);
+  settle();
   release();
   const std::shared_ptr<GpuPipelines> before = pipelines_;
   if (new_shaders) pipelines_ = std::make_shared<GpuPipelines>(device_);
@@ -74,6 +77,7 @@ void RunningScene::reload(bool new_shaders) {
 }
 
 void RunningScene::reset() {
+  settle();
   rest();
   release();
   const State start = start_state(model());
@@ -127,20 +131,31 @@ Scene RunningScene::composed(const Scene& scene) const {
 
 /// Everything that can fail comes before the first change.
 void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
+  settle();
   const Clock::time_point start = Clock::now();
   const Model model = build_model(composed(next));
   rest();
-  const bool same = simulation_ && keep_state && same_start(scene_.cloth, next.cloth) &&
-                    scene_.cloths == next.cloths && simulation_->plan().solver->name == next.solver.name;
-  figures_.kept_plan = same && !anew && simulation_->adopt(model);
+  figures_.kept_plan = !anew && keep_state && keeps_start(next) && simulation_->adopt(model);
   if (!figures_.kept_plan) {
     std::optional<State> state;
     if (keep_state) state = carry_state(simulation_->model(), simulation_->read(), model);
-    std::unique_ptr<DrawnSimulation> next_one = made(model);
-    if (state) next_one->write(*state);
+    MadeSimulation next_one = made(model);
+    if (state) next_one.simulation->write(*state);
     take(std::move(next_one));
-    figures_.frame_ms = figures_.expected_ms = 0.0;  // another cloth's say nothing of this one
   }
+  settle_in(next);
+  if (!keep_state) begin_again();
+  figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
+}
+
+/// Whether the running simulation may be able to take the model of `next` over as it is.
+bool RunningScene::keeps_start(const Scene& next) const {
+  return simulation_ && same_start(scene_.cloth, next.cloth) && scene_.cloths == next.cloths &&
+         simulation_->plan().solver->name == next.solver.name;
+}
+
+/// The simulation is that of `next` by now: so is the rest.
+void RunningScene::settle_in(const Scene& next) {
   scene_ = next;
   shown_ = simulation_->model();
   shown_.scene.pins = next.pins;
@@ -148,23 +163,76 @@ void RunningScene::adopt(const Scene& next, bool keep_state, bool anew) {
   if (pacer_.frame_s() != next.solver.frame_s) pacer_.set_frame(next.solver.frame_s);
   drop_frame();  // its end would be another cloth's
   watched_.reset();
-  if (!keep_state) begin_again();
-  figures_.rebuild_ms = Milliseconds(Clock::now() - start).count();
 }
 
-std::unique_ptr<DrawnSimulation> RunningScene::made(const Model& model) {
-  native_lacks_.clear();
-  if (compute_on_ == ComputeOn::device) return made_on_device(model);
+void RunningScene::begin_change(const Scene& next) {
+  settle();
+  release();
+  change_ = std::make_unique<SceneChange>(next, composed(next));
+}
+
+bool RunningScene::follow_change() {
+  constexpr std::chrono::milliseconds kPatience{6};  // a small cloth's change is seen in the next picture
+  if (retired_ && retired_->read_until <= device_.completed()) retired_.reset();
+  const Clock::time_point until = Clock::now() + kPatience;
+  while (change_ && change_->done_by(until))
+    if (go_on_changing()) return true;
+  return false;
+}
+
+/// One part is done: what of it the running scene has to do with. Returns whether it was the last.
+bool RunningScene::go_on_changing() {
+  try {
+    change_->finish();
+    if (change_->part() == SceneChange::Part::model) {
+      rest();
+      figures_.kept_plan = keeps_start(change_->next()) && simulation_->adopt(change_->model());
+      if (!figures_.kept_plan) {
+        change_->make_simulation([this](const Model& model) { return made(model); });
+        return false;
+      }
+    } else if (change_->part() == SceneChange::Part::simulation) {
+      rest();
+      finish_part();
+      change_->carry(simulation_->model(), simulation_->read());
+      return false;
+    } else {
+      retired_ = Retired{std::move(simulation_), device_.submitted()};
+      take(change_->take());
+    }
+  } catch (...) {
+    change_.reset();
+    throw;
+  }
+  const std::unique_ptr<SceneChange> done = std::move(change_);
+  settle_in(done->next());
+  figures_.rebuild_ms = Milliseconds(Clock::now() - done->since()).count();
+  return true;
+}
+
+void RunningScene::settle() {
+  while (change_) go_on_changing();
+  finish_part();
+}
+
+/// On the device or on the host; for any thread.
+MadeSimulation RunningScene::made(const Model& model) const {
+  if (compute_on_ == ComputeOn::device) return {made_on_device(model), ""};
   const Solver& solver = find_solver(model.scene.solver.name);
-  native_lacks_ = native_lacks(model, solver, model.scene.solver.precision);
-  return draw_host_simulation(device_, make_native_simulation(model, solver, model.scene.solver.precision));
+  const std::string& precision = model.scene.solver.precision;
+  return {draw_host_simulation(device_, make_native_simulation(model, solver, precision)),
+          native_lacks(model, solver, precision)};
 }
 
-void RunningScene::take(std::unique_ptr<DrawnSimulation> next) {
-  simulation_ = std::move(next);
+void RunningScene::take(MadeSimulation next) {
+  simulation_ = std::move(next.simulation);
+  native_lacks_ = std::move(next.native_lacks);
   on_gpu_ = dynamic_cast<GpuSimulation*>(simulation_.get());
   on_host_ = dynamic_cast<HostDrawnSimulation*>(simulation_.get());
   ++version_;
+  figures_.frame_ms = figures_.expected_ms = 0.0;  // another cloth's say nothing of this one
+  // Particles that are pinned now and were not before were put in their places, and pull yet.
+  next_measure_ = std::max(next_measure_, Clock::now() + std::chrono::milliseconds(250));
 }
 
 std::unique_ptr<DrawnSimulation> RunningScene::copy_of(const Model& model,
@@ -199,6 +267,7 @@ void RunningScene::set_kernel(const std::string& name) {
   if (on_gpu_ == nullptr)
     throw Error(Exit::usage,
                 "the kernels are those of a Vulkan device's shaders, and native computes this cloth");
+  settle();
   if (name != "auto") named_kernel(device_, simulation_->plan(), name);
   const std::string before = std::exchange(kernel_, kernel_or_auto(name));
   release();
@@ -250,7 +319,7 @@ void RunningScene::grab(const State& state, const Pick& pick) {
   const Model held = build_model(with_hand);
   if (!simulation_->adopt(held)) {
     auto with_pin = made(held);
-    with_pin->write(state);
+    with_pin.simulation->write(state);
     take(std::move(with_pin));
   }
   drop_frame();

@@ -14,6 +14,7 @@
 #include "study/measure.h"
 #include "viewer/hand.h"
 #include "viewer/pacing.h"
+#include "viewer/scene_change.h"
 #include "viewer/substep_budget.h"
 
 namespace weft {
@@ -65,12 +66,24 @@ class RunningScene {
   void restore();
   /// Changes the scene while it runs; the state is carried over.
   void apply(const Scene& next);
+  /// The same without waiting: a thread prepares the change while the scene goes on, and follow_change()
+  /// takes it over. Whatever else changes the scene first waits for that.
+  void begin_change(const Scene& next);
+  /// Once a turn: takes over what is prepared by now. Returns whether the change is done.
+  /// @throws Error as apply does; the scene before runs on
+  bool follow_change();
+  bool changing() const { return change_ != nullptr; }
+  /// The scene that is asked for: the one under way, else the one that runs.
+  const Scene& wanted() const { return change_ ? change_->next() : scene_; }
+  /// Waits for the change and the part of a frame under way, if there are any.
+  void settle();
   /// Goes on with another kernel of the pass `integrate`; the state is carried over. One that does not fit a
   /// later scene or resolution gives way to auto there.
   /// @throws Error(Exit::usage), changing nothing, when the name is none or the kernel does not fit now
   void set_kernel(const std::string& name);
   const std::string& kernel() const { return kernel_; }  ///< asked for: "auto", or a name
   /// Pins the cloth around a particle where it is now, or removes every pin that holds it.
+  /// @param particle  of the scene that runs, while it is not changing()
   /// @param place_m  where that particle is, for the mark that is drawn there
   void toggle_pin(std::uint32_t particle, const glm::dvec3& place_m);
 
@@ -103,7 +116,8 @@ class RunningScene {
   /// Forgets what was asked for, and frees it.
   void stop_watching();
 
-  /// The hand takes hold of the cloth. @param state  as it is now, where `pick` was found
+  /// The hand takes hold of the cloth, which is not changing(). @param state  as it is now, where `pick` was
+  /// found
   void grab(const State& state, const Pick& pick);
   /// The hand lets go, if it holds anything.
   void release();
@@ -139,6 +153,8 @@ class RunningScene {
   /// What happened and the likely cause; empty while the scene is sound.
   const std::string& divergence_text() const { return divergence_text_; }
   bool mid_frame() const { return mid_frame_; }
+  /// Whether what is drawn now is one moment's: false while the device computes a part of a frame.
+  bool showable() const { return !part_under_way_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -147,12 +163,19 @@ class RunningScene {
   /// @param anew  build every pipeline again, even for the same plan
   void adopt(const Scene& next, bool keep_state, bool anew = false);
   /// On the device or on the host, as native_lacks_ was found for this model.
-  std::unique_ptr<DrawnSimulation> made(const Model& model);
+  MadeSimulation made(const Model& model) const;
   std::unique_ptr<GpuSimulation> made_on_device(const Model& model) const;
-  void take(std::unique_ptr<DrawnSimulation> next);
+  void take(MadeSimulation next);
+  bool keeps_start(const Scene& next) const;
+  void settle_in(const Scene& next);
+  bool go_on_changing();
+  bool carrying() const { return change_ && change_->part() == SceneChange::Part::state; }
   void begin_again();
   void begin_piece();
-  bool continue_frame();
+  void begin_part();
+  bool end_part(double wait_s);
+  void note_part();
+  void finish_part();
   void note_progress(double part_s, double chunk_ms);
   void tell_progress();
   void note_frame(double took_ms);
@@ -186,7 +209,11 @@ class RunningScene {
   Hand hand_;
   RunFigures figures_;
   bool paused_ = false, mid_frame_ = false;
-  bool by_itself_ = false;  ///< the simulation's thread begins frames that are owed
+  bool more_parts_ = false;      ///< follow the one under way in its frame
+  bool part_under_way_ = false;  ///< the device computes it, and nobody waits
+  double part_s_ = 0.0;          ///< simulated, of that one
+  double spent_ms_ = 0.0;        ///< on parts since a picture could be made
+  bool by_itself_ = false;       ///< the simulation's thread begins frames that are owed
   std::string divergence_text_;
   std::uint32_t pieces_left_ = 0, pieces_ = 1, steps_due_ = 0;
   double frame_wall_ms_ = 0.0, frame_computed_ms_ = 0.0, frame_part_s_ = 0.0;  // of the frame under way
@@ -194,6 +221,13 @@ class RunningScene {
   Clock::time_point next_measure_{};
   bool watch_wanted_ = false;
   std::optional<WatchedFrame> under_watch_, watched_;
+  /// One that pictures in flight may read, and the device's value when none does.
+  struct Retired {
+    std::unique_ptr<DrawnSimulation> simulation;
+    std::uint64_t read_until = 0;
+  };
+  std::optional<Retired> retired_;
+  std::unique_ptr<SceneChange> change_;  // last: it ends before what it reads
 };
 
 }  // namespace weft

@@ -30,22 +30,43 @@ void RunningScene::begin_piece() {
   mid_frame_ = true;
 }
 
-/// Computes the next chunk. Returns whether the frame is unfinished.
-bool RunningScene::continue_frame() {
-  const Clock::time_point start = Clock::now();
+void RunningScene::begin_part() {
   if (!mid_frame_) begin_piece();
   const double before_s = simulation_->time_s();
-  mid_frame_ = simulation_->continue_frame();
-  simulation_->wait();
+  more_parts_ = simulation_->continue_frame();
+  part_s_ = simulation_->time_s() - before_s;
+  part_under_way_ = true;
+}
+
+/// Waits so long at most for the part under way. Returns whether it has ended.
+bool RunningScene::end_part(double wait_s) {
+  if (!simulation_->await_part(std::max(wait_s, 0.0))) return false;
+  part_under_way_ = false;
+  mid_frame_ = more_parts_;
+  spent_ms_ += simulation_->part_ms();
+  note_part();
+  return true;
+}
+
+/// What has come of it: progress, the frame's end, what the device found.
+void RunningScene::note_part() {
   if (!mid_frame_ && on_host_ != nullptr) frame_computed_ms_ += on_host_->latest_frame_ms();
-  note_progress(simulation_->time_s() - before_s, Milliseconds(Clock::now() - start).count());
+  note_progress(part_s_, simulation_->part_ms());
   if (!mid_frame_) stop_if_diverged();
-  if (diverged()) return false;
-  if (mid_frame_ || --pieces_left_ > 0) return true;
+  if (diverged() || mid_frame_ || --pieces_left_ > 0) return;
   watch_end();
   // The host computes on while a picture is drawn.
   note_frame(on_host_ == nullptr ? frame_wall_ms_ : frame_computed_ms_);
-  return false;
+  if (paused_ && steps_due_ > 0) --steps_due_;
+  if (!paused_) pacer_.frame_done();
+}
+
+/// However long it takes. What is drawn is that moment.
+void RunningScene::finish_part() {
+  if (!part_under_way_) return;
+  simulation_->wait();
+  end_part(0.0);
+  if (mid_frame_) simulation_->refresh_normals();
 }
 
 void RunningScene::note_frame(double took_ms) {
@@ -108,22 +129,25 @@ void RunningScene::restore() {
   set_paused(true);
 }
 
+/// A part that the device has not ended when the time is up goes on meanwhile; the next call takes it in, and
+/// begins no other one when it has had its time, so that a picture can be made.
 void RunningScene::advance(double wall_s, double budget_s) {
   if (diverged() || (paused_ && steps_due_ == 0)) return;
   if (!paused_) pacer_.elapse(wall_s);
+  if (carrying()) return;
   if (may_go_on_by_itself()) return go_on_by_itself(budget_s);
   rest();
   const Clock::time_point start = Clock::now();
+  const auto left_s = [&] { return budget_s - Seconds(Clock::now() - start).count(); };
   const auto due = [&] {
     return paused_ ? steps_due_ > 0 : mid_frame_ || pieces_left_ > 0 || pacer_.frame_due();
   };
-  while (due()) {
-    if (!continue_frame()) {
-      if (diverged()) break;
-      if (paused_) --steps_due_;
-      if (!paused_) pacer_.frame_done();
-    }
-    if (Seconds(Clock::now() - start).count() >= budget_s) break;
+  bool begins = !part_under_way_;
+  if (begins) spent_ms_ = 0.0;
+  while (part_under_way_ || (begins && !diverged() && due())) {
+    if (!part_under_way_) begin_part();
+    if (!end_part(left_s())) return;
+    begins = left_s() > 0.0 && spent_ms_ < 1e3 * budget_s;
   }
   pacer_.give_up_rest();
   if (mid_frame_) simulation_->refresh_normals();
@@ -172,7 +196,7 @@ void RunningScene::rest() {
 
 /// What is left of a frame under way is never computed.
 void RunningScene::drop_frame() {
-  mid_frame_ = false;
+  mid_frame_ = part_under_way_ = false;
   pieces_left_ = 0;
   pacer_.begin_frame();
   under_watch_.reset();
@@ -180,6 +204,7 @@ void RunningScene::drop_frame() {
 
 void RunningScene::set_paused(bool paused) {
   rest();
+  finish_part();
   if (paused && mid_frame_) simulation_->refresh_normals();  // what stands is what is shown
   paused_ = paused;
   steps_due_ = 0;
