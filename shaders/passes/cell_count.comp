@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "../shared/pass.glsl"
 
 // First third of the counting sort: the box of each patch, and how many patches each bucket of the grid
-// holds. And the longest edge and the widest box, by which the searches know how far to look; and whether the
-// patch and those beside it are nearly flat. Counts are integers added atomically: their sums do not depend
+// holds. And the longest edge and the widest box, by which the searches know how far to look; and where the
+// cloth is spread out and where it bends. Counts are integers added atomically: their sums do not depend
 // on the order, nor do the greatest. Source: Green 2008, Particle simulation using CUDA, "Building the grid
 // using atomic operations".
 
@@ -17,34 +18,42 @@ UPDATES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
 
-#include "../shared/nearly_flat.glsl"
+#include "../shared/surface.glsl"
 #include "../shared/patches.glsl"
-
-real3 at(Cells c, OwnPatch own, uint i, uint j) { return position[(own.first_row + j) * c.nx + i].xyz; }
+#include "../shared/folds.glsl"
 
 // The longest squared edge from a particle to the right, below, and below to the left.
-real longest_edge(Cells c, OwnPatch own, uint i, uint j, real3 x) {
-  bool right = i < own.last.x, below = j < own.last.y;
-  uint p = (own.first_row + j) * c.nx + i;
-  precise real3 d0 = position[right ? p + 1u : p].xyz - x;
-  precise real3 d1 = position[below ? p + c.nx : p].xyz - x;
-  precise real3 d2 = position[below && i > 0u ? p + c.nx - 1u : p].xyz - x;
-  return max(max(squared_length(d0), squared_length(d1)), squared_length(d2));
+real longest_edge(Cells c, OwnPatch own, uvec2 at, real3 x) {
+  bvec2 more = lessThan(at, own.last);
+  precise real3 d0 = position_at(c, own, uvec2(min(at.x + 1u, own.last.x), at.y)) - x;
+  precise real3 d1 = position_at(c, own, uvec2(at.x, min(at.y + 1u, own.last.y))) - x;
+  real longest = max(squared_length(d0), squared_length(d1));
+  if (!more.y || at.x == 0u) return longest;
+  precise real3 d2 = position_at(c, own, uvec2(at.x - 1u, at.y + 1u)) - x;
+  return max(longest, squared_length(d2));
+}
+
+// Whether a particle of the patch may have another on its list that is not beside it but of this patch or one
+// beside it. `mine` are the patch's particles, as many as the cloth has.
+bool close(Cells c, OwnPatch own, real3 mine[4]) {
+  bool found = false;
+  ivec2 low = max(ivec2(own.low) - 2, ivec2(0)), high = min(ivec2(own.low) + 3, ivec2(own.last));
+  [[dont_unroll]] for (int j = low.y; j <= high.y; ++j)
+    [[dont_unroll]] for (int i = low.x; i <= high.x; ++i) {
+      real3 x = position_at(c, own, uvec2(i, j));
+      [[unroll]] for (int k = 0; k < 4; ++k) {
+        ivec2 at = ivec2(own.low) + ivec2(k % 2, k / 2), off = abs(ivec2(i, j) - at);
+        precise real3 d = x - mine[k];
+        found = found || (max(off.x, off.y) > 1 && all(lessThanEqual(at, ivec2(own.last))) &&
+                          squared_length(d) < collision[0].patch_search_squared_m2);
+      }
+    }
+  return found;
 }
 
 void raise(uint word, real value) {
   uint bits = floatBitsToUint(float(value));
   if (bits > collision_state[word]) atomicMax(collision_state[word], bits);
-}
-
-// Whether no two particles that are not beside each other come near within the patch and those beside it.
-bool flat_around(Cells c, OwnPatch own) {
-  uvec2 low = max(own.low, uvec2(2u)) - 2u, high = min(own.low + 3u, own.last);
-  uvec2 to = min(own.low + 1u, own.last);
-  precise real3 along = at(c, own, to.x, own.low.y) - at(c, own, to.x - 1u, own.low.y);
-  precise real3 down = at(c, own, own.low.x, to.y) - at(c, own, own.low.x, to.y - 1u);
-  uvec2 first = uvec2(0u, own.first_row);
-  return nearly_flat(c, first + low, first + high, along, down, collision[0].patch_flat_m);
 }
 
 void main() {
@@ -53,18 +62,17 @@ void main() {
   Patches grid = patches_of(c);
   OwnPatch own;
   if (!own_patch(c, grid, own)) return;
-  real3 low = at(c, own, own.low.x, own.low.y), high = low;
+  real3 mine[4], low, high;
   real longest = 0.0;
-  uvec2 to = min(own.low + 1u, own.last);
-  for (uint j = own.low.y; j <= to.y; ++j)
-    for (uint i = own.low.x; i <= to.x; ++i) {
-      real3 x = at(c, own, i, j);
-      low = min(low, x);
-      high = max(high, x);
-      longest = max(longest, longest_edge(c, own, i, j, x));
-    }
-  patches[2u * own.patch_index] = real4(low, flat_around(c, own) ? 1.0 : 0.0);
-  patches[2u * own.patch_index + 1u] = real4(high, 0.0);
+  [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+    uvec2 at = min(own.low + uvec2(k % 2u, k / 2u), own.last);  // at the cloth's end one of them again
+    mine[k] = position_at(c, own, at);
+    low = k == 0u ? mine[k] : min(low, mine[k]);
+    high = k == 0u ? mine[k] : max(high, mine[k]);
+    longest = max(longest, longest_edge(c, own, at, mine[k]));
+  }
+  patches[2u * own.patch_index] = real4(low, close(c, own, mine) ? 0.0 : 1.0);
+  patches[2u * own.patch_index + 1u] = real4(high, real(bends(c, own)));
   precise real3 wide = high - low;
   raise(kLongestEdge, longest);
   if (covered(c, low) && covered(c, high)) raise(kWidestPatch, max(max(wide.x, wide.y), wide.z));

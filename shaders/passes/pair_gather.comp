@@ -66,7 +66,7 @@ void main() {
   built_position[own.particle] = here;
   uint found = 0u;
   Patches grid = patches_of(c);
-  if (covered(c, here.xyz) && patch_listed[patch_with(grid, own)] != 0u)
+  if (covered(c, here.xyz) && (patch_listed[patch_with(grid, own)] & kLooksFar) != 0u)
     search_around(c, grid, own, here.xyz, found);
   uint kept = min(found, collision[0].capacity);
   pair_count[own.particle] = kept;

@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "../shared/pass.glsl"
 
 // Tells of each patch whether some particle of it may have another near that is not beside it on the cloth:
-// where it and those beside it are not nearly flat, or where the box of a patch farther away on the cloth
-// is near. The particles of all others look at their neighbours only. Each invocation writes its own patch:
-// no races. Source: docs/effects.md "Self-collision".
+// where it and those beside it are not spread out, or where the box of a patch farther away on the cloth
+// is near. And which of its particles look at their neighbours: those at a folded cell, and all near a
+// crease. An invocation asks for two by two patches at once, and for each of them where that finds something.
+// It writes its own patches: no races. Source: docs/effects.md "Self-collision".
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
@@ -21,14 +23,100 @@ layout(local_size_x = kCollisionGroup) in;
 #include "../shared/patch_boxes.glsl"
 #include "../shared/search_reach.glsl"
 
-bool is_near(OwnPatch own, uint other, Patches grid, real3 low, real3 high, real search) {
-  uint x = other % grid.nx, y = other / grid.nx;
-  bool beside = x + 1u >= own.x && x <= own.x + 1u && y + 1u >= own.y && y <= own.y + 1u &&
-                y / grid.ny == own.y / grid.ny;
-  if (beside) return false;
-  precise real3 before = patch_low(other) - high, after = low - patch_high(other);
+// Two by two patches of one cloth: columns and rows of patches, both ends included.
+struct Block {
+  uvec2 low, high;
+  uint first_row;  // of patches, of their cloth
+};
+
+bool own_block(Patches grid, out Block block) {
+  uint down = (grid.ny + 1u) / 2u, x = gl_GlobalInvocationID.x, y = gl_GlobalInvocationID.y;
+  block.first_row = y / down * grid.ny;
+  block.low = uvec2(2u * x, block.first_row + 2u * (y % down));
+  block.high = min(block.low + 1u, uvec2(grid.nx, block.first_row + grid.ny) - 1u);
+  return block.low.x < grid.nx && block.low.y < grid.rows;
+}
+
+// With the patches beside it on the cloth.
+Block wider(Patches grid, Block block) {
+  uvec2 least = uvec2(0u, block.first_row);
+  return Block(max(block.low, least + 1u) - 1u,
+               min(block.high + 1u, least + uvec2(grid.nx, grid.ny) - 1u), block.first_row);
+}
+
+OwnPatch patch_at(Cells c, Patches grid, Block block, uvec2 at) {
+  uint cloth = block.first_row / grid.ny;
+  return OwnPatch(at.x, at.y, at.y * grid.nx + at.x, cloth * rows_of_cloth(),
+                  2u * uvec2(at.x, at.y - block.first_row), uvec2(c.nx, rows_of_cloth()) - 1u);
+}
+
+// The largest gap between two boxes along an axis.
+real apart_by(real3 low_a, real3 high_a, real3 low_b, real3 high_b) {
+  precise real3 before = low_a - high_b, after = low_b - high_a;
   real3 gap = max(before, after);
-  return max(max(gap.x, gap.y), gap.z) < search;
+  return max(max(gap.x, gap.y), gap.z);
+}
+
+bool within(uint other, real3 low, real3 high, real search) {
+  return apart_by(patch_low(other), patch_high(other), low, high) < search;
+}
+
+// What is far is told by its box first: to divide an index is dear on devices that do it lane by lane.
+bool is_near(OwnPatch own, uint other, Patches grid, real3 low, real3 high, real search) {
+  if (!within(other, low, high, search)) return false;
+  uvec2 at = uvec2(other % grid.nx, other / grid.nx);
+  bool beside = at.x + 1u >= own.x && at.x <= own.x + 1u && at.y + 1u >= own.y && at.y <= own.y + 1u;
+  return at.y / grid.ny != own.y / grid.ny || !beside;
+}
+
+bool patch_covered(Cells c, uint patch_index) {
+  return covered(c, patch_low(patch_index)) && covered(c, patch_high(patch_index));
+}
+
+bool has_patch(Patches grid, Block region, uint other) {
+  uvec2 at = uvec2(other % grid.nx, other / grid.nx);
+  return all(greaterThanEqual(at, region.low)) && all(lessThanEqual(at, region.high));
+}
+
+// Along x, then y, then z; behind the last one beyond range.last.z.
+ivec3 next_cell(ivec3 cell, CellRange range) {
+  ++cell.x;
+  if (cell.x > range.last.x) cell = ivec3(range.first.x, cell.y + 1, cell.z);
+  if (cell.y > range.last.y) cell = ivec3(cell.x, range.first.y, cell.z + 1);
+  return cell;
+}
+
+// Whether no patch but the block's and those beside it is near the box of them all.
+bool is_alone(Cells c, Patches grid, Block block, Block region, real search) {
+  uint first = block.low.y * grid.nx + block.low.x;
+  real3 low = patch_low(first), high = patch_high(first);
+  for (uint y = block.low.y; y <= block.high.y; ++y)
+    for (uint x = block.low.x; x <= block.high.x; ++x) {
+      uint p = y * grid.nx + x;
+      if (!patch_covered(c, p)) return false;
+      low = min(low, patch_low(p));
+      high = max(high, patch_high(p));
+    }
+  CellRange range = cells_around(c, low, high, search);
+  if (!range.whole) return false;
+  // One loop over cells and what is in them, so that invocations that a device runs in step do not wait for
+  // the fullest cell of each turn.
+  ivec3 cell = range.first;
+  uint slot = 0u, end = 0u;
+  while (slot < end || cell.z <= range.last.z) {
+    if (slot == end) {
+      uint bucket = bucket_of(c, cell);
+      slot = cells[bucket];
+      end = cells[bucket + 1u];
+      cell = next_cell(cell, range);
+    }
+    if (slot < end) {
+      uint other = cell_members[slot];
+      ++slot;
+      if (within(other, low, high, search) && !has_patch(grid, region, other)) return false;
+    }
+  }
+  return true;
 }
 
 bool finds(Cells c, Patches grid, OwnPatch own, real search) {
@@ -45,17 +133,82 @@ bool finds(Cells c, Patches grid, OwnPatch own, real search) {
   return false;
 }
 
+// Of the five by five cells, five in a row, those of a patch that are folded; its first is at `at`.
+uint cells_at(uint bits, ivec2 at) {
+  uint cells_folded = 0u;
+  [[unroll]] for (int k = 0; k < 4; ++k) {
+    ivec2 cell = at + ivec2(k % 2, k / 2);
+    bool inside = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(5)));
+    if (inside && (bits >> k & 1u) != 0u) cells_folded |= 1u << (5 * cell.y + cell.x);
+  }
+  return cells_folded;
+}
+
+// What the block and the patches beside it say of the block's four patches, row by row.
+struct Surroundings {
+  uint found;    // a bit for each that has another near it, but not beside it, among them
+  uint folds;    // of the five by five cells at its particles
+  uint creases;  // of the four by four patches
+};
+
+Surroundings look_around(Patches grid, Block block, Block region, real search) {
+  real3 low[4], high[4];
+  uvec2 at[4];
+  [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+    at[k] = min(block.low + uvec2(k % 2u, k / 2u), block.high);  // at the cloth's end one of them again
+    low[k] = patch_low(at[k].y * grid.nx + at[k].x);
+    high[k] = patch_high(at[k].y * grid.nx + at[k].x);
+  }
+  Surroundings seen = Surroundings(0u, 0u, 0u);
+  for (uint y = region.low.y; y <= region.high.y; ++y)
+    for (uint x = region.low.x; x <= region.high.x; ++x) {
+      uint other = y * grid.nx + x;
+      real3 other_low = patch_low(other), other_high = patch_high(other);
+      [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        bool beside = x + 1u >= at[k].x && x <= at[k].x + 1u && y + 1u >= at[k].y && y <= at[k].y + 1u;
+        if (!beside && apart_by(other_low, other_high, low[k], high[k]) < search) seen.found |= 1u << k;
+      }
+      uint bits = folds_in(other);
+      uvec2 place = uvec2(x, y) + 1u - block.low;  // among the four by four
+      seen.folds |= cells_at(bits, 2 * ivec2(place) - 1);
+      if ((bits & kCreased) != 0u) seen.creases |= 1u << (4u * place.y + place.x);
+    }
+  return seen;
+}
+
+// The bits of the patch's particles that are at a folded cell; of all of them where a diagonal nearby is
+// creased. 99: two by two of five; 0x777: three by three of four.
+uint looks_beside(Surroundings seen, uvec2 place) {
+  if ((seen.creases >> (4u * place.y + place.x) & 0x777u) != 0u) return kCreaseBeside | 15u * kLooksBeside;
+  uint looks = 0u;
+  [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+    uvec2 particle = 2u * place + uvec2(k % 2u, k / 2u);
+    if ((seen.folds >> (5u * particle.y + particle.x) & 99u) != 0u) looks |= kLooksBeside << k;
+  }
+  return looks;
+}
+
 void main() {
   if (collision_state[kListGroups] == 0u) return;
   Cells c = cells_of_cloth();
   Patches grid = patches_of(c);
-  OwnPatch own;
-  if (!own_patch(c, grid, own)) return;
-  bool listed = false;
-  if (covered(c, patch_low(own.patch_index)) && covered(c, patch_high(own.patch_index))) {
-    real search = search_distance();
-    bool nearly_flat_here = patches[2u * own.patch_index].w != 0.0 && search <= collision[0].patch_search_m;
-    listed = !nearly_flat_here || finds(c, grid, own, search);
-  }
-  patch_listed[own.patch_index] = listed ? 1u : 0u;
+  Block block;
+  if (!own_block(grid, block)) return;
+  Block region = wider(grid, block);
+  real search = search_distance();
+  bool overlooks = !(search <= collision[0].patch_search_m);  // edges are longer than expected
+  bool alone = !overlooks && is_alone(c, grid, block, region, search);
+  Surroundings seen = look_around(grid, block, region, search);
+  for (uint y = block.low.y; y <= block.high.y; ++y)
+    for (uint x = block.low.x; x <= block.high.x; ++x) {
+      OwnPatch own = patch_at(c, grid, block, uvec2(x, y));
+      uvec2 place = uvec2(x, y) - block.low;
+      bool far = false;
+      if (patch_covered(c, own.patch_index)) {
+        far = overlooks || patches[2u * own.patch_index].w == 0.0;
+        bool found = (seen.found >> (2u * place.y + place.x) & 1u) != 0u;
+        if (!far) far = alone ? found : finds(c, grid, own, search);
+      }
+      patch_listed[own.patch_index] = (far ? kLooksFar : 0u) | looks_beside(seen, place);
+    }
 }

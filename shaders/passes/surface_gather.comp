@@ -5,12 +5,11 @@
 // Lists the triangles near every particle and the pairs of edges near each other, before the lists are made
 // anew. Of the corners of two primitives that are within reach, one pair is within search_squared of each
 // other, and the nearest such pair finds them: the particle whose turn it is owns the entry, so that none is
-// listed twice. Primitives that share a corner are not listed. Where the cloth round a particle is nearly
-// flat, neighbours are passed over, and all others where its patch has nothing else near: docs/effects.md
-// "Self-collision" says why nothing is missed. Each
-// invocation writes its own particle's list: no races. Source: Bridson, Fedkiw and Anderson 2002, Robust
-// treatment of collisions, contact and friction for cloth animation, section 6 (which pairs); the grid: Green
-// 2008.
+// listed twice. Primitives that share a corner are not listed. Neighbours are passed over where the cloth is
+// not folded, and all others where its patch has nothing else near: docs/effects.md "Self-collision" says why
+// nothing is missed. Each invocation writes its own particle's list: no races. Source: Bridson, Fedkiw and
+// Anderson 2002, Robust treatment of collisions, contact and friction for cloth animation, section 6 (which
+// pairs); the grid: Green 2008.
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
@@ -27,7 +26,6 @@ WRITES(uint, surface_bound)
 layout(local_size_x = kCollisionGroup) in;
 
 #include "../shared/surface.glsl"
-#include "../shared/nearly_flat.glsl"
 #include "../shared/patches.glsl"
 #include "../shared/patch_boxes.glsl"
 #include "../shared/search_reach.glsl"
@@ -50,27 +48,23 @@ bool stands_for(real ab, uint place_a, uint place_b, real ef, uint place_e, uint
 
 uint place_of(Cells c, ivec2 ij) { return uint(ij.y) << c.column_bits | uint(ij.x); }
 
-// Whether the patch within two cells of the particle is so nearly flat that its primitives are out of reach.
-bool flat_at(Cells c, Own own) {
-  uint top = own.j - own_row(own.j), bottom = top + rows_of_cloth() - 1u;  // of its own cloth
-  uvec2 low = uvec2(max(own.i, 2u) - 2u, max(own.j, top + 2u) - 2u);
-  uvec2 high = min(uvec2(own.i, own.j) + 2u, uvec2(c.nx - 1u, bottom));
-  uvec2 to = min(uvec2(own.i, own.j) + 1u, uvec2(c.nx - 1u, bottom));
-  precise real3 along = at(c, ivec2(to.x, own.j)) - at(c, ivec2(to.x - 1u, own.j));
-  precise real3 down = at(c, ivec2(own.i, to.y)) - at(c, ivec2(own.i, to.y - 1u));
-  return nearly_flat(c, low, high, along, down, collision[0].flat_min_m);
+// Whether the cell at a column and row is folded.
+bool folded_cell(Patches grid, uvec2 cell) {
+  uint j = own_row(cell.y);
+  uint bits = folds_in((cloth_of(cell.y) * grid.ny + j / 2u) * grid.nx + cell.x / 2u);
+  return (bits >> (j % 2u * 2u + cell.x % 2u) & 1u) != 0u;
 }
 
-// Whether that holds of the primitives at the particle and at one beside it.
-bool flat_between(Cells c, Own own, uvec2 other) {
+// Whether all cells that have both the particle and one beside it are folded.
+bool folded_between(Cells c, Patches grid, Own own, uvec2 other) {
   uint top = own.j - own_row(own.j), bottom = top + rows_of_cloth() - 1u;  // of their cloth
-  uvec2 here = uvec2(own.i, own.j), low = min(here, other), high = max(here, other);
-  uvec2 to = min(low + 1u, uvec2(c.nx - 1u, bottom));
-  precise real3 along = at(c, ivec2(to.x, low.y)) - at(c, ivec2(to.x - 1u, low.y));
-  precise real3 down = at(c, ivec2(low.x, to.y)) - at(c, ivec2(low.x, to.y - 1u));
-  uvec2 first = uvec2(max(low.x, 1u) - 1u, max(low.y, top + 1u) - 1u);
-  uvec2 last = min(high + 1u, uvec2(c.nx - 1u, bottom));
-  return nearly_flat(c, first, last, along, down, collision[0].flat_min_m);
+  uvec2 here = uvec2(own.i, own.j), low = min(here, other), high = min(low + 1u, uvec2(c.nx - 1u, bottom));
+  if (here.x == other.x) low.x = max(low.x, 1u) - 1u;
+  if (here.y == other.y) low.y = max(low.y, top + 1u) - 1u;
+  for (uint j = low.y; j < high.y; ++j)
+    for (uint i = low.x; i < high.x; ++i)
+      if (!folded_cell(grid, uvec2(i, j))) return false;
+  return true;
 }
 
 void keep(Cells c, Own own, uint code, uint place, inout uint found) {
@@ -180,22 +174,23 @@ void search_cells(Cells c, Patches grid, Own own, real3 x, CellRange range, real
       }
 }
 
-void search_around(Cells c, Own own, real3 x, inout uint found) {
-  Patches grid = patches_of(c);
+void search_around(Cells c, Patches grid, Own own, real3 x, uint looks, inout uint found) {
   real search = surface_search_squared();
   CellRange range = cells_around(c, x, x, sqrt(search) * 1.0009765625);
-  bool flat_here = flat_at(c, own), listed = patch_listed[patch_with(grid, own)] != 0u;
-  if (listed && !range.whole) atomicAdd(collision_state[kPairsDropped], 1u);
+  bool far = (looks & kLooksFar) != 0u, creased = (looks & kCreaseBeside) != 0u;
+  bool at_fold = (looks >> (own_row(own.j) % 2u * 2u + own.i % 2u) & kLooksBeside) != 0u;
+  if (far && !range.whole) atomicAdd(collision_state[kPairsDropped], 1u);
   uint done = 0u, seen;
   do {
     seen = 0u;
-    for (uint k = 0u; k < kBesideCount && !flat_here; ++k) {
+    for (uint k = 0u; k < kBesideCount && at_fold; ++k) {
       if (!has_beside(c, own, k)) continue;
       uvec2 other = beside_at(own, k);
-      if (squared_between(x, at(c, ivec2(other))) < search && !flat_between(c, own, other))
+      bool may_reach = creased || folded_between(c, grid, own, other);
+      if (may_reach && squared_between(x, at(c, ivec2(other))) < search)
         add_waiting(other.y << c.column_bits | other.x, done, seen);
     }
-    if (listed) search_cells(c, grid, own, x, range, search, done, seen);
+    if (far) search_cells(c, grid, own, x, range, search, done, seen);
     look_at_waiting(c, own, x, min(seen - done, kWaitingMax), found);
     done += kWaitingMax;
   } while (seen > done);
@@ -206,11 +201,14 @@ void main() {
   Own own;
   if (!own_particle(c, own)) return;
   if (own.particle == 0u) {
-    collision_state[kListGroups] = collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;  // done
+    collision_state[kListGroups] = collision_state[kBlockGroups] = 0u;  // done
+    collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;
   }
   real3 x = position[own.particle].xyz;
   uint found = 0u;
-  if (covered(c, x)) search_around(c, own, x, found);
+  Patches grid = patches_of(c);
+  uint looks = patch_listed[patch_with(grid, own)];
+  if (looks != 0u && covered(c, x)) search_around(c, grid, own, x, looks, found);
   uint kept = min(found, collision[0].surface_capacity);
   surface_count[own.particle] = kept;
   surface_bound[own.particle] = kInfinity;

@@ -29,14 +29,15 @@ WEFT_REAL_STRUCT(Collision) {
   real surface_limit_squared_m2;
   real surface_reach_squared_m2;  // nearer when the lists are made, and they are listed
   real roam_max_m;                // the farthest that a particle may be from where the lists were made
-  // Where distances are no less than this times those on the cloth, no neighbours are in reach.
+  // Where distances are no less than this times those on the cloth in cells, what is a cell apart is out of
+  // reach.
   real flat_min_m;
   real deep_m;       // of what contacts overlap, what counts
   real recover_1_s;  // they part with that much speed a metre of it
   real friction;
   real pair_reach_m;    // of any pair of particles
-  real patch_flat_m;    // as flat_min_m, of two that are not beside each other
-  real patch_search_m;  // as long as the searches look no farther
+  real patch_search_m;  // of any two particles that are not beside each other, if no edge is too long
+  real patch_search_squared_m2;
 };
 #ifdef __cplusplus
 using Collision = CollisionOf<float>;
@@ -57,7 +58,8 @@ WEFT_CONST uint kSmallestGap = 15u;   // bits of the smallest distance [m] of tw
 WEFT_CONST uint kNearGroups = 16u;    // x, y, z of the passes over the cloth that make the lists
 WEFT_CONST uint kTouchGroups = 19u;   // x, y, z of the passes that push apart
 WEFT_CONST uint kWidestPatch = 22u;   // bits of the widest side of a patch's box [m] in float
-WEFT_CONST uint kCollisionStateWords = 23u;
+WEFT_CONST uint kBlockGroups = 23u;   // x, y, z of the pass over blocks of 2 x 2 patches
+WEFT_CONST uint kCollisionStateWords = 26u;
 WEFT_CONST uint kCarrierSamples = 64u;  // particles whose motion stands for the cloth's
 WEFT_CONST uint kCarrierBuilt = 0u;     // rows of `carrier`: since the lists were made [m]
 WEFT_CONST uint kCarrierNear = 1u;      // since contacts were last looked at [m]
@@ -77,7 +79,15 @@ WEFT_CONST uint kSurfaceCodeShift = 26u;       // entry of a list: code above, p
 WEFT_CONST uint kSurfaceTriangle = 36u;        // code − this: which triangle round the place
 WEFT_CONST uint kSumPlanes = 3u;               // of `surface_sums`: x, y, z
 WEFT_CONST int kCellsAcrossMax = 5;            // of the search for surfaces along an axis
-WEFT_CONST uint kCollisionGroup = 64u;         // invocations of a workgroup over the cloth
+// What is known of a patch's cells, in the w of its box: a bit for each that is folded, row by row, and one
+// more where a diagonal is creased. And its word of patch_listed: 1 where its particles look for others than
+// their neighbours, a bit for each particle that looks at its neighbours, row by row, and one where all do.
+WEFT_CONST uint kCreased = 16u;
+WEFT_CONST uint kLooksFar = 1u;
+WEFT_CONST uint kLooksBeside = 2u;  // of the first particle; those of the others follow
+WEFT_CONST uint kCreaseBeside = 32u;
+WEFT_CONST float kHalfRoot = 0.70710678f;  // of 1/2
+WEFT_CONST uint kCollisionGroup = 64u;     // invocations of a workgroup over the cloth
 
 WEFT_SHARED_END
 #endif

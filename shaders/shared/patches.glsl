@@ -8,7 +8,7 @@ struct Patches {
 
 Patches patches_of(Cells c) {
   uint ny = (rows_of_cloth() + 1u) / 2u;
-  return Patches((c.nx + 1u) / 2u, ny, c.ny / rows_of_cloth() * ny);
+  return Patches((c.nx + 1u) / 2u, ny, (sheet_rows == 0u ? 1u : c.ny / sheet_rows) * ny);
 }
 
 // Where this invocation's patch is.
@@ -32,7 +32,7 @@ bool own_patch(Cells c, Patches grid, out OwnPatch own) {
 // The patch that a particle is in.
 uint patch_with(Patches grid, Own own) {
   uint j = own_row(own.j);
-  return ((own.j - j) / rows_of_cloth() * grid.ny + j / 2u) * grid.nx + own.i / 2u;
+  return (cloth_of(own.j) * grid.ny + j / 2u) * grid.nx + own.i / 2u;
 }
 
 // The cell that a box's middle is in; one of its own where the grid does not cover the box.

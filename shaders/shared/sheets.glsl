@@ -8,5 +8,8 @@ bool same_cloth(uint row_a, uint row_b) {
   return sheet_rows == 0u || row_a / sheet_rows == row_b / sheet_rows;
 }
 
+// Which cloth a row is of. Where there is but one, no device is to divide: some do it lane by lane.
+uint cloth_of(uint j) { return sheet_rows == 0u ? 0u : j / sheet_rows; }
+
 // The row within its own cloth.
 uint own_row(uint j) { return sheet_rows == 0u ? j : j % sheet_rows; }

@@ -1,9 +1,10 @@
-// cell_count: the box of each patch, how many patches each bucket of the grid holds, and the longest edge.
-// Declaration and CPU mirror.
+// cell_count: the box of each patch and where it bends, how many patches each bucket of the grid holds, and
+// the longest edge. Declaration and CPU mirror.
 #include <atomic>
 #include <bit>
 #include <utility>
 
+#include "passes/folds.h"
 #include "passes/parallel.h"
 #include "passes/passes.h"
 #include "passes/patches.h"
@@ -30,7 +31,7 @@ class PatchLook {
             const std::vector<glm::vec<4, T>>& position)
       : view_(view), patches_(patches), position_(position) {}
 
-  /// Writes the patch's box.
+  /// Writes the patch's box and what is known of its bends.
   void look_at(std::uint32_t patch, glm::vec<4, T>* box) {
     const PatchGrid::Block block = patches_.block(patch);
     V low = at(block.i0, block.j0), high = low;
@@ -43,8 +44,9 @@ class PatchLook {
         }
         look_at_edges(view_.grid.index(i, j));
       }
-    box[0] = glm::vec<4, T>(low, flat_around(patch, block) ? T(1) : T(0));
-    box[1] = glm::vec<4, T>(high, T(0));
+    const Folds<T> folds(view_, patches_, position_, patch);
+    box[0] = glm::vec<4, T>(low, folds.close() ? T(0) : T(1));
+    box[1] = glm::vec<4, T>(high, static_cast<T>(folds.bends()));
     const V wide = high - low;
     if (view_.covered(box[0]) && view_.covered(box[1]))
       widest_ = std::max(widest_, bits_of(std::max(std::max(wide.x, wide.y), wide.z)));
@@ -60,15 +62,6 @@ class PatchLook {
     for (const std::size_t k : {0u, 1u, 2u})  // right, below, below to the left
       if (const auto q = ring_particle(view_.grid, p, k))
         longest_ = std::max(longest_, bits_of(squared_distance(position_[p], position_[*q])));
-  }
-
-  bool flat_around(std::uint32_t patch, const PatchGrid::Block& block) const {
-    const std::uint32_t right = std::max(block.i1, block.i0 == 0 ? 1u : block.i0),
-                        own_row = view_.grid.own_row(block.j0),
-                        below = own_row + 1 < view_.grid.ny ? block.j0 + 1 : block.j0;
-    const V along = at(right, block.j0) - at(right - 1, block.j0),
-            down = at(block.i0, below) - at(block.i0, below - 1);
-    return nearly_flat(view_.grid, position_, patches_.block(patch, 2), along, down, view_.patch_flat);
   }
 
   const CollisionView<T>& view_;

@@ -24,7 +24,7 @@ constexpr double kRecoverShare = 0.25;  // of what contacts overlap, what they p
 constexpr double kStaleShare = 0.35;    // of the skin: the rest is for motion until the next look
 constexpr double kPileLayers = 20;  // that contacts hold, pressed to three quarters of the distance they keep
 constexpr std::uint32_t kPlaceBits = 26;
-constexpr double kPatchEdge = 1.1;  // of its length on the cloth: an edge of nearly flat patches
+constexpr double kPatchEdge = 1.1;  // of its length on the cloth: an edge that is no longer than expected
 
 /// Entries that a list needs where layers lie as densely as they can: discs of the cloth within reach, one
 /// layer a thickness; half as much again and 4, because contact is never that even.
@@ -49,9 +49,10 @@ double surface_search_m(const CollisionLayout& layout, double spacing_m) {
   return std::hypot(layout.surface_reach_m, kPatchEdge * spacing_m);
 }
 
-/// Edge of the grid's cubes: twice what is looked for, so that a box and what is round it lie in few of them.
+/// Edge of the grid's cubes: so much of what is looked for that a box and what is round it lie in few of
+/// them, and that few patches are in one. Measured: docs/effects.md.
 double grid_cell_m(const CollisionLayout& layout, double spacing_m) {
-  return 2.02 * std::max(layout.thickness_m + layout.skin_m, surface_search_m(layout, spacing_m));
+  return 4.2 * std::max(layout.thickness_m + layout.skin_m, surface_search_m(layout, spacing_m));
 }
 
 /// First row whose pairs are so far apart on the cloth that they keep the whole thickness.
@@ -67,18 +68,6 @@ double pile_time_s(const Model& model, const CollisionLayout& layout) {
   if (!model.scene.gravity) return 1.0;
   const double weight_m_s2 = kPileLayers * glm::length(model.scene.gravity->acceleration_m_s2);
   return std::sqrt(kRecoverShare * layout.deep_m / (4.0 * std::max(weight_m_s2, 1e-3)));
-}
-
-/// How far the searches look, and how flat the cloth must be for them to find nothing.
-void lay_out_searches(const Model& model, CollisionLayout& layout) {
-  const double searched_m = surface_search_m(layout, model.grid.spacing_m);
-  layout.pair_reach_m = kRoundingRoom * (layout.thickness_m + layout.skin_m);
-  layout.patch_search_m = kRoundingRoom * std::max(searched_m, layout.pair_reach_m);
-  layout.patch_flat_m = searched_m / 2.0;  // the nearest that are not beside each other are two cells apart
-  const auto limits = pair_limits(model, layout);
-  for (std::uint32_t m = 4; m <= layout.limit_last; ++m)
-    layout.patch_flat_m = std::max(layout.patch_flat_m, (limits[m].limit + layout.skin_m) / std::sqrt(m));
-  layout.patch_flat_m *= kRoundingRoom * kRoundingRoom;
 }
 
 }  // namespace
@@ -142,7 +131,8 @@ CollisionLayout collision_layout(const Model& model) {
   layout.buckets = std::bit_ceil(PatchGrid(model.grid).count());
   layout.recover_1_s = kRecoverShare / look_time_s(model, layout);
   layout.capacity = list_capacity(thickness_m / a, layout.skin_m / a, model.grid.count());
-  lay_out_searches(model, layout);
+  layout.pair_reach_m = kRoundingRoom * (layout.thickness_m + layout.skin_m);
+  layout.patch_search_m = kRoundingRoom * std::max(surface_search_m(layout, a), layout.pair_reach_m);
   return layout;
 }
 
@@ -210,8 +200,8 @@ shared::CollisionOf<T> make_collision(const Model& model) {
   collision.recover_1_s = view.recover;
   collision.friction = view.friction;
   collision.pair_reach_m = view.pair_reach;
-  collision.patch_flat_m = view.patch_flat;
   collision.patch_search_m = view.patch_search;
+  collision.patch_search_squared_m2 = view.patch_search_squared;
   return collision;
 }
 
@@ -221,6 +211,12 @@ template shared::CollisionOf<double> make_collision(const Model&);
 Range collision_domain(const Model& model) {
   if (!model.scene.self_collision) return {};
   return whole_cloth(model);
+}
+
+Range block_domain(const Model& model) {
+  if (!model.scene.self_collision) return {};
+  const PatchGrid patches(model.grid);
+  return {.x = (patches.nx() + 1) / 2, .y = (patches.ny() + 1) / 2 * (patches.rows() / patches.ny())};
 }
 
 Range patch_domain(const Model& model) {

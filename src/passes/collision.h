@@ -31,11 +31,8 @@ struct CollisionLayout {
   double recover_1_s;         ///< they part with that much speed a metre of it
   std::uint32_t surface_capacity;  ///< entries a particle's list of triangles and edges has room for
   double pair_reach_m;             ///< nearer when the lists are made, and any pair may be listed
-  /// Where distances are at least so many metres a cell on the cloth, particles that are not beside each
-  /// other are farther apart than patch_search_m, and than their own limit and skin.
-  double patch_flat_m;
-  double patch_search_m;  ///< as far as surfaces are searched where no edge is longer than kPatchEdge times a
-                          ///< cell's
+  double patch_search_m;  ///< as far as particles are searched where no edge is longer than kPatchEdge times
+                          ///< a cell's
 };
 
 /// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth, or its particles' places
@@ -121,7 +118,7 @@ struct CollisionView {
   std::vector<PairLimit<T>> limits;
   T inverse_cell, moved_squared_max;
   T surface_limit, surface_limit_squared, surface_reach_squared, roam_max, flat_min, deep, recover, friction;
-  T pair_reach, patch_flat, patch_search;
+  T pair_reach, patch_search, patch_search_squared;
 
   explicit CollisionView(const Model& model)
       : grid(model.grid), layout(collision_layout(model)), limits(layout.limit_last + 1) {
@@ -136,13 +133,13 @@ struct CollisionView {
     surface_limit_squared = static_cast<T>(layout.surface_limit_m * layout.surface_limit_m);
     surface_reach_squared = static_cast<T>(layout.surface_reach_m * layout.surface_reach_m);
     roam_max = static_cast<T>(layout.roam_max_m);
-    flat_min = static_cast<T>(layout.surface_reach_m * std::numbers::sqrt2 * kRoundingRoom);
+    flat_min = static_cast<T>(layout.surface_reach_m * kRoundingRoom);
     deep = static_cast<T>(layout.deep_m);
     recover = static_cast<T>(layout.recover_1_s);
     friction = static_cast<T>(model.scene.self_collision->friction);
     pair_reach = static_cast<T>(layout.pair_reach_m);
-    patch_flat = static_cast<T>(layout.patch_flat_m);
     patch_search = static_cast<T>(layout.patch_search_m);
+    patch_search_squared = static_cast<T>(layout.patch_search_m * layout.patch_search_m);
   }
 
   std::uint32_t place_of(std::uint32_t particle) const {

@@ -83,6 +83,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     return (items + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
   };
   state[shared::kListGroups] = groups((view.grid.nx + 1) / 2);
+  state[shared::kBlockGroups] = groups((view.grid.nx + 3) / 4);
   state[shared::kNearGroups] = groups(view.grid.nx);
   state[shared::kScanGroups] = 1;
 }

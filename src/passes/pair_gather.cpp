@@ -25,7 +25,7 @@ std::uint32_t gather(const CollisionView<T>& view, const PatchGrid& patches, con
     ++found;
   };
   if (view.covered(position[particle]) &&
-      buffers.words_of(BufferId::patch_listed)[patches.with(particle)] != 0)
+      (buffers.words_of(BufferId::patch_listed)[patches.with(particle)] & shared::kLooksFar) != 0)
     search.particles_around(patches, particle, place_in(position, particle), view.pair_reach, add);
   const std::uint32_t kept = std::min(found, view.layout.capacity);
   buffers.words_of(BufferId::pair_count)[particle] = kept;

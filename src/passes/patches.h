@@ -16,6 +16,7 @@ class PatchGrid {
   explicit PatchGrid(const Grid& grid) : grid_(grid), nx_((grid.nx + 1) / 2), ny_((grid.ny + 1) / 2) {}
 
   std::uint32_t nx() const { return nx_; }
+  std::uint32_t ny() const { return ny_; }                                ///< of one cloth
   std::uint32_t rows() const { return ny_ * (grid_.rows() / grid_.ny); }  ///< of all cloths
   std::uint32_t count() const { return nx_ * rows(); }
 
@@ -36,6 +37,15 @@ class PatchGrid {
     return ((row - own) / grid_.ny * ny_ + own / 2) * nx_ + particle % grid_.nx / 2;
   }
 
+  /// Calls visit(patch) for the patch and those beside it on its cloth.
+  template <class Visit>
+  void each_beside(std::uint32_t patch, Visit&& visit) const {
+    const std::uint32_t x = patch % nx_, y = patch / nx_, top = y / ny_ * ny_;
+    for (std::uint32_t row = std::max(y, top + 1) - 1; row <= std::min(y + 1, top + ny_ - 1); ++row)
+      for (std::uint32_t column = std::max(x, 1u) - 1; column <= std::min(x + 1, nx_ - 1); ++column)
+        visit(row * nx_ + column);
+  }
+
   /// Whether two patches are the same or beside each other on one cloth.
   bool beside(std::uint32_t a, std::uint32_t b) const {
     const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
@@ -49,6 +59,9 @@ class PatchGrid {
 
 /// One invocation a patch.
 Range patch_domain(const Model& model);
+
+/// One invocation a block of 2 x 2 patches of one cloth.
+Range block_domain(const Model& model);
 
 /// The eight particles round one on its cloth, row by row; nothing outside.
 inline std::optional<std::uint32_t> beside_at(const Grid& grid, std::uint32_t particle, std::uint32_t k) {
@@ -64,32 +77,6 @@ inline bool beside(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
   const std::uint32_t particles = grid.nx * grid.ny;
   return near(a % grid.nx, b % grid.nx) && near(a / grid.nx, b / grid.nx) && a / particles == b / particles;
-}
-
-/// Whether a piece of the cloth is so little bent that points on it are at least `stretch` times as far apart
-/// as on the cloth, in cells: every triangle takes every direction to one that goes on by as much where a
-/// triangle with the edges along and down takes it.
-template <class T>
-bool nearly_flat(const Grid& grid, const std::vector<glm::vec<4, T>>& position, const PatchGrid::Block& block,
-                 const glm::vec<3, T>& along, const glm::vec<3, T>& down, T stretch) {
-  using V = glm::vec<3, T>;
-  const T p = dot3(along, along), s = dot3(down, down), m = dot3(along, down);
-  const T middle = T(0.5) * (p + s), half = T(0.5) * (p - s);
-  const T least = stretch * std::sqrt(middle + std::sqrt(half * half + m * m));
-  const auto goes_along = [&](const V& edge_i, const V& edge_j) {
-    const T a = dot3(along, edge_i) - least, b = dot3(down, edge_j) - least;
-    const T mixed = T(0.5) * (dot3(along, edge_j) + dot3(down, edge_i));
-    return a >= 0 && b >= 0 && a * b >= mixed * mixed;
-  };
-  for (std::uint32_t j = block.j0; j < block.j1; ++j)
-    for (std::uint32_t i = block.i0; i < block.i1; ++i) {
-      const V here = place_in(position, grid.index(i, j)), right = place_in(position, grid.index(i + 1, j)),
-              below = place_in(position, grid.index(i, j + 1)),
-              across = place_in(position, grid.index(i + 1, j + 1));
-      if (!goes_along(right - here, below - here) || !goes_along(across - below, across - right))
-        return false;
-    }
-  return true;
 }
 
 /// What the searches read: boxes of patches in a grid, and how far to look.

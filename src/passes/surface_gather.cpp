@@ -4,10 +4,9 @@
 #include <tuple>
 #include <utility>
 
+#include "passes/folds.h"
 #include "passes/parallel.h"
 #include "passes/passes.h"
-#include "passes/patches.h"
-#include "passes/surface.h"
 
 namespace weft {
 namespace {
@@ -21,6 +20,7 @@ class SurfaceSearch {
         patches_(patches),
         position_(buffers[BufferId::position]),
         listed_(buffers.words_of(BufferId::patch_listed)),
+        folded_(view.grid, patches, buffers[BufferId::patches]),
         search_(view, buffers) {}
 
   /// Calls keep(code, place) for each entry of p's list and returns whether nothing was out of its sight.
@@ -29,44 +29,17 @@ class SurfaceSearch {
     const auto look_at = [&](std::uint32_t q) {
       if (squared_distance(position_[p], position_[q]) < search_.surface_squared()) add(p, q, keep);
     };
-    if (!flat_at(p))
+    const std::uint32_t looks = listed_[patches_.with(p)];
+    const std::uint32_t in_patch = view_.grid.own_row(p / view_.grid.nx) % 2 * 2 + p % view_.grid.nx % 2;
+    if ((looks >> in_patch & shared::kLooksBeside) != 0)
       for (std::uint32_t k = 0; k < 8; ++k)
         if (const auto q = beside_at(view_.grid, p, k))
-          if (!flat_between(p, *q)) look_at(*q);
-    if (listed_[patches_.with(p)] == 0) return true;
+          if ((looks & shared::kCreaseBeside) != 0 || folded_.all_between(p, *q)) look_at(*q);
+    if ((looks & shared::kLooksFar) == 0) return true;
     return search_.particles_around(patches_, p, place_in(position_, p), search_.surface_distance(), look_at);
   }
 
  private:
-  using V = glm::vec<3, T>;
-
-  V at(std::uint32_t i, std::uint32_t j) const { return place_in(position_, view_.grid.index(i, j)); }
-
-  /// Whether the patch within two cells of p is so nearly flat that its primitives are out of reach.
-  bool flat_at(std::uint32_t p) const {
-    const Grid& g = view_.grid;
-    const std::uint32_t i = p % g.nx, j = p / g.nx;
-    const std::uint32_t top = j - g.own_row(j), bottom = top + g.ny - 1;  // of its own cloth
-    const std::uint32_t right = std::min(i + 1, g.nx - 1), below = std::min(j + 1, bottom);
-    const V along = at(right, j) - at(right - 1, j), down = at(i, below) - at(i, below - 1);
-    const PatchGrid::Block block{std::max(i, 2u) - 2, std::max(j, top + 2) - 2, std::min(i + 2, g.nx - 1),
-                                 std::min(j + 2, bottom)};
-    return nearly_flat(g, position_, block, along, down, view_.flat_min);
-  }
-
-  /// Whether that holds of the primitives at two particles beside each other.
-  bool flat_between(std::uint32_t p, std::uint32_t q) const {
-    const Grid& g = view_.grid;
-    const std::uint32_t top = p / g.nx - g.own_row(p / g.nx), bottom = top + g.ny - 1;  // of their cloth
-    const auto [i, i_end] = std::minmax({p % g.nx, q % g.nx});
-    const auto [j, j_end] = std::minmax({p / g.nx, q / g.nx});
-    const std::uint32_t right = std::min(i + 1, g.nx - 1), below = std::min(j + 1, bottom);
-    const V along = at(right, j) - at(right - 1, j), down = at(i, below) - at(i, below - 1);
-    const PatchGrid::Block block{std::max(i, 1u) - 1, std::max(j, top + 1) - 1, std::min(i_end + 1, g.nx - 1),
-                                 std::min(j_end + 1, bottom)};
-    return nearly_flat(g, position_, block, along, down, view_.flat_min);
-  }
-
   /// What orders pairs of corners: distance, then places.
   std::tuple<T, std::uint32_t, std::uint32_t> order_of(std::uint32_t a, std::uint32_t b) const {
     const std::uint32_t pa = view_.place_of(a), pb = view_.place_of(b);
@@ -113,6 +86,7 @@ class SurfaceSearch {
   const PatchGrid& patches_;
   const std::vector<glm::vec<4, T>>& position_;
   const std::vector<std::uint32_t>& listed_;
+  FoldedCells<T> folded_;
   PatchSearch<T> search_;
 };
 
@@ -146,7 +120,9 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   buffers.words_of(BufferId::surface_bound).assign(count, shared::kInfinity);
   auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kPairsDropped] += dropped;
-  state[shared::kListGroups] = state[shared::kNearGroups] = state[shared::kScanGroups] = 0;
+  for (const std::uint32_t word :
+       {shared::kListGroups, shared::kBlockGroups, shared::kNearGroups, shared::kScanGroups})
+    state[word] = 0;
   if (listed != 0) mark_listed(grid, buffers);
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <random>
 #include <set>
@@ -91,7 +93,7 @@ Lists lists_of(const Model& model, const State& state, Positions& x) {
   Lists lists{{},
               {},
               buffers.words_of(BufferId::collision_state)[shared::kPairsDropped],
-              static_cast<std::size_t>(std::ranges::count(asked, 1u)),
+              static_cast<std::size_t>(std::ranges::count_if(asked, [](std::uint32_t w) { return w != 0; })),
               asked.size()};
   for_each_surface_pair(view, buffers,
                         [&](const SurfacePair<float>& pair) { ++lists.surfaces[primitives_of(pair)]; });
@@ -187,6 +189,71 @@ TEST(SurfaceLists, HoldThePairsOfThickCloth) {
     for (const double noise : {0.0, 0.08})
       EXPECT_TRUE(expect_all_listed(model, rolled(model, turn, noise, 5),
                                     fmt::format("turn {}, noise {}", turn, noise)));
+}
+
+/// The cloth folded by `angle` [rad] about a line along the cells' diagonals.
+State folded_along_diagonals(const Model& model, double angle, double noise, std::uint64_t seed) {
+  State state = start_state(model);
+  std::mt19937_64 random(seed);
+  const double a = model.grid.spacing_m;
+  std::normal_distribution<double> normal(0.0, noise * a);
+  const glm::dvec3 along =
+      glm::normalize(state.position[model.grid.index(1, 0)] - state.position[model.grid.index(0, 1)]);
+  const glm::dvec3 line = state.position[model.grid.index(model.grid.nx / 2, model.grid.ny / 2)];
+  for (std::uint32_t j = 0; j < model.grid.rows(); ++j)
+    for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
+      glm::dvec3& x = state.position[model.grid.index(i, j)];
+      if (i + j > model.grid.nx / 2 + model.grid.ny / 2) {
+        const glm::dvec3 arm = x - line, across = arm - glm::dot(arm, along) * along;
+        x = line + (arm - across) + std::cos(angle) * across + std::sin(angle) * glm::cross(along, across);
+      }
+      x += glm::dvec3(normal(random), normal(random), normal(random));
+    }
+  return state;
+}
+
+// A sharp crease along the diagonals brings what meets at one of them within reach: 0.707 cells apart on the
+// cloth, at 0.55 from a fold of 102 degrees on.
+TEST(SurfaceLists, HoldWhatACreaseAlongTheDiagonalsBringsNear) {
+  const Model model = crumpled_model(0.1, 1);
+  for (const double angle : {0.5, 1.7, 1.9, 2.4, 2.9})
+    for (const double noise : {0.0, 0.02, 0.08})
+      expect_all_listed(model, folded_along_diagonals(model, angle, noise, 11),
+                        fmt::format("folded by {}, noise {}", angle, noise));
+  Positions x;
+  EXPECT_TRUE(lists_of(model, folded_along_diagonals(model, 0.5, 0.0, 1), x).surfaces.empty());
+  EXPECT_FALSE(lists_of(model, folded_along_diagonals(model, 2.4, 0.0, 1), x).surfaces.empty());
+}
+
+// Why Folds looks at diagonals by themselves: on the flat cloth all else that has no particle in common is at
+// least a cell apart.
+TEST(SurfaceLists, OnlyWhatMeetsAtADiagonalIsLessThanACellApart) {
+  const Model model = crumpled_model(0.1, 1);
+  const Grid& grid = model.grid;
+  Positions x;
+  for (const glm::dvec3& at : start_state(model).position) x.emplace_back(glm::vec3(at), 1.0f);
+  std::set<Primitives> at_diagonals;
+  for (std::uint32_t j = 0; j + 1 < grid.ny; ++j)
+    for (std::uint32_t i = 0; i + 1 < grid.nx; ++i) {
+      const std::uint32_t here = grid.index(i, j), right = here + 1, below = grid.index(i, j + 1);
+      const Corners diagonal = sorted({right, below});
+      at_diagonals.insert({{here}, sorted({right, below, below + 1})});
+      at_diagonals.insert({{below + 1}, sorted({here, right, below})});
+      for (const std::uint32_t corner : {here, below + 1})
+        for (std::size_t k = 0; k < 6; ++k)
+          if (const auto end = ring_particle(grid, corner, k); end && apart(diagonal, {*end})) {
+            const Corners edge = sorted({corner, *end});
+            at_diagonals.insert({std::min(diagonal, edge), std::max(diagonal, edge)});
+          }
+    }
+  const auto cell_squared = static_cast<float>(grid.spacing_m * grid.spacing_m);
+  std::size_t nearer = 0;
+  each_by_each(grid, x, [&](const Primitives& pair, float squared) {
+    if (squared > 0.99f * cell_squared) return;
+    ++nearer;
+    EXPECT_TRUE(at_diagonals.contains(pair)) << "at " << std::sqrt(squared / cell_squared) << " cells";
+  });
+  EXPECT_EQ(nearer, at_diagonals.size());
 }
 
 // What they pass over: nothing is searched in a cloth that is flat, or bends a little, and has nothing near.
