@@ -45,10 +45,11 @@ std::unique_ptr<GpuSimulation> simulation_of(gpu::Device& device, const Scene& s
       {.perturb = {}, .pipelines = std::move(pipelines), .kernel = fitting_kernel(device, scene, kernel)});
 }
 
-/// How many of a frame's substeps stay below so many particle·substeps.
+/// How many of a frame's substeps stay below so many particle·substeps; two at least, so that the first can
+/// be told from the others.
 std::uint32_t substeps_within(const Plan& plan, double most, std::uint32_t substeps) {
   const double fit = most / static_cast<double>(plan.steps.at(0).range.items());
-  return static_cast<std::uint32_t>(std::clamp(fit, 1.0, static_cast<double>(substeps)));
+  return static_cast<std::uint32_t>(std::clamp(fit, std::min(2.0, double(substeps)), double(substeps)));
 }
 
 /// A scene on the device, and what its turns took.
@@ -61,18 +62,14 @@ class Side {
     simulation_ = simulation_of(device, scene, options.kernel, std::move(pipelines));
     timed_ = substeps_within(simulation_->plan(), options.turn_most, substeps);
   }
-  /// One frame from `state`, or its first substeps. Returns a whole frame's milliseconds.
+  /// One frame from `state`, or its first substeps. Returns a whole frame's milliseconds: what the first
+  /// substep alone does, as making lists, is counted once.
   double turn(const State& state) {
-    simulation_->write(state);
-    simulation_->advance(frame_s_ * timed_ / substeps_, timed_);
-    simulation_->wait();
-    const std::vector<double> steps = simulation_->step_ms();
-    double sum_ms = 0.0;
-    for (std::size_t step = 0; step < steps.size(); ++step) {
-      const bool again = simulation_->plan().steps[step].block == Block::substep;
-      sum_ms += again ? steps[step] * substeps_ / timed_ : steps[step];
-    }
-    return sum_ms;
+    const Spent all = spent_on(state, timed_);
+    if (timed_ == substeps_) return all.once_ms + all.substeps_ms;
+    const Spent first = spent_on(state, 1);
+    const double each_ms = (all.substeps_ms - first.substeps_ms) / (timed_ - 1);
+    return all.once_ms + first.substeps_ms + each_ms * (substeps_ - 1);
   }
   GpuSimulation& simulation() { return *simulation_; }
   EffectSide result(const std::vector<double>& frames_ms) const {
@@ -84,6 +81,22 @@ class Side {
   }
 
  private:
+  struct Spent {
+    double once_ms = 0.0;      ///< on steps of the frame
+    double substeps_ms = 0.0;  ///< on those of all substeps
+  };
+  Spent spent_on(const State& state, std::uint32_t substeps) {
+    simulation_->write(state);
+    simulation_->advance(frame_s_ * substeps / substeps_, substeps);
+    simulation_->wait();
+    const std::vector<double> steps = simulation_->step_ms();
+    Spent spent;
+    for (std::size_t step = 0; step < steps.size(); ++step)
+      (simulation_->plan().steps[step].block == Block::substep ? spent.substeps_ms : spent.once_ms) +=
+          steps[step];
+    return spent;
+  }
+
   double frame_s_;
   std::uint32_t substeps_, automatic_, timed_ = 0;
   std::unique_ptr<GpuSimulation> simulation_;

@@ -18,7 +18,8 @@ struct EffectBenchOptions {
   /// What runs `integrate`, as GpuSimulationOptions::kernel; where it does not fit, what runs unasked.
   std::string kernel;
   /// Particle·substeps, above which a turn is the first substeps of a frame, and its milliseconds those of a
-  /// frame whose other substeps take as long; and above which less than time_s is simulated.
+  /// frame whose other substeps take as long as those after the first; and above which less than time_s is
+  /// simulated.
   double turn_most = 1e7, warm_most = 2e8;
 };
 
