@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "gpu/commands.h"
 #include "gpu_fixture.h"
+#include "model/measures.h"
 #include "viewer/running_scene.h"
 
 namespace weft {
