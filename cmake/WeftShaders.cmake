@@ -19,6 +19,15 @@ list(FILTER reach_sources INCLUDE REGEX
   "/(integrate(_steal|_strip|_texel)?(_compensated)?|xpbd_finish|strain_limit|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
 list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
 
+# What reads vectors as texels where the kernel does.
+set(texel_sources "")
+foreach(source ${shader_sources})
+  file(STRINGS ${source} vectors REGEX "^READS_VECTORS")
+  if(vectors)
+    list(APPEND texel_sources ${source}+WEFT_TEXELS)
+  endif()
+endforeach()
+
 # Kernels that lack an effect, one constant of effects.glsl each: what bench --effects holds against those that have
 # it switched off.
 set(lacking_sources "")
@@ -34,7 +43,7 @@ if(WEFT_BENCH_LACKING)
   endforeach()
 endif()
 
-foreach(variant ${shader_sources} ${double_sources} ${reach_sources} ${lacking_sources})
+foreach(variant ${shader_sources} ${double_sources} ${reach_sources} ${texel_sources} ${lacking_sources})
   string(REGEX REPLACE "\\+.*" "" source ${variant})
   set(define "")
   if(variant MATCHES "\\+(.*)$")

@@ -11,44 +11,43 @@
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
-READS(real4, position)
+READS_VECTORS(position)
 UPDATES(uint, collision_state)
 WRITES(real4, patches)
 UPDATES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
+layout(constant_id = 0) const uint rows = 1u;  // of patches that an invocation marches down; the device's choice
 
 #include "../shared/surface.glsl"
 #include "../shared/patches.glsl"
 #include "../shared/folds.glsl"
 
-// The longest squared edge from a particle to the right, below, and below to the left.
-real longest_edge(Cells c, OwnPatch own, uvec2 at, real3 x) {
-  bvec2 more = lessThan(at, own.last);
-  precise real3 d0 = position_at(c, own, uvec2(min(at.x + 1u, own.last.x), at.y)) - x;
-  precise real3 d1 = position_at(c, own, uvec2(at.x, min(at.y + 1u, own.last.y))) - x;
-  real longest = max(squared_length(d0), squared_length(d1));
-  if (!more.y || at.x == 0u) return longest;
-  precise real3 d2 = position_at(c, own, uvec2(at.x - 1u, at.y + 1u)) - x;
-  return max(longest, squared_length(d2));
+// The longest squared edge from a particle to the right, below, and below to the left. What lies beyond the
+// cloth's ends stands where its last particle does, so that there it is an edge once more, or nothing.
+real longest_edge(const int i, const int j) {
+  real3 x = x_at(i, j);
+  precise real3 d0 = x_at(i + 1, j) - x, d1 = x_at(i, j + 1) - x, d2 = x_at(i - 1, j + 1) - x;
+  return max(max(squared_length(d0), squared_length(d1)), squared_length(d2));
 }
 
 // Whether a particle of the patch may have another on its list that is not beside it but of this patch or one
-// beside it. `mine` are the patch's particles, as many as the cloth has.
-bool close(Cells c, OwnPatch own, real3 mine[4]) {
-  bool found = false;
-  ivec2 low = max(ivec2(own.low) - 2, ivec2(0)), high = min(ivec2(own.low) + 3, ivec2(own.last));
-  [[dont_unroll]] for (int j = low.y; j <= high.y; ++j)
-    [[dont_unroll]] for (int i = low.x; i <= high.x; ++i) {
-      real3 x = position_at(c, own, uvec2(i, j));
+// beside it.
+bool close() {
+  real most = collision[0].patch_search_squared_m2;
+  uint found = 0u;
+  [[unroll]] for (int j = 0; j < kAcross; ++j)
+    [[unroll]] for (int i = 0; i < kAcross; ++i) {
+      uint near = 0u;
       [[unroll]] for (int k = 0; k < 4; ++k) {
-        ivec2 at = ivec2(own.low) + ivec2(k % 2, k / 2), off = abs(ivec2(i, j) - at);
-        precise real3 d = x - mine[k];
-        found = found || (max(off.x, off.y) > 1 && all(lessThanEqual(at, ivec2(own.last))) &&
-                          squared_length(d) < collision[0].patch_search_squared_m2);
+        const int p = 2 + k % 2, q = 2 + k / 2;
+        precise real3 d = x_at(i, j) - x_at(p, q);
+        if (max(abs(i - p), abs(j - q)) > 1)
+          near |= has_column[p] & has_row[q] & uint(squared_length(d) < most);
       }
+      found |= near & has_column[i] & has_row[j];
     }
-  return found;
+  return found != 0u;
 }
 
 void raise(uint word, real value) {
@@ -56,25 +55,40 @@ void raise(uint word, real value) {
   if (bits > collision_state[word]) atomicMax(collision_state[word], bits);
 }
 
+// What all patches of the march have in common at its end.
+struct Greatest {
+  real edge_squared, side;
+};
+
+void look_at_patch(Cells c, OwnPatch own, inout Greatest most) {
+  real3 low = x_at(2, 2), high = low;
+  [[unroll]] for (int k = 0; k < 4; ++k) {  // at the cloth's end one of them again
+    const int i = 2 + k % 2, j = 2 + k / 2;
+    low = min(low, x_at(i, j));
+    high = max(high, x_at(i, j));
+    most.edge_squared = max(most.edge_squared, longest_edge(i, j));
+  }
+  patches[2u * own.patch_index] = real4(low, close() ? 0.0 : 1.0);
+  patches[2u * own.patch_index + 1u] = real4(high, real(bends(c, own)));
+  precise real3 wide = high - low;
+  if (covered(c, low) && covered(c, high)) most.side = max(most.side, max(max(wide.x, wide.y), wide.z));
+  atomicAdd(cells[bucket_of(c, cell_of_box(c, low, high, own.patch_index))], 1u);
+}
+
 void main() {
   if (collision_state[kListGroups] == 0u) return;
   Cells c = cells_of_cloth();
   Patches grid = patches_of(c);
-  OwnPatch own;
-  if (!own_patch(c, grid, own)) return;
-  real3 mine[4], low, high;
-  real longest = 0.0;
-  [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-    uvec2 at = min(own.low + uvec2(k % 2u, k / 2u), own.last);  // at the cloth's end one of them again
-    mine[k] = position_at(c, own, at);
-    low = k == 0u ? mine[k] : min(low, mine[k]);
-    high = k == 0u ? mine[k] : max(high, mine[k]);
-    longest = max(longest, longest_edge(c, own, at, mine[k]));
+  uint x = gl_GlobalInvocationID.x, begin = gl_GlobalInvocationID.y * rows;
+  if (x >= grid.nx || begin >= grid.rows) return;
+  Greatest most = Greatest(0.0, 0.0);
+  uint end = min(begin + rows, grid.rows);
+  choose_columns(patch_at(c, grid, x, begin));
+  [[dont_unroll]] for (uint y = begin; y < end; ++y) {
+    OwnPatch own = patch_at(c, grid, x, y);
+    look_around(c, own, y > begin && own.low.y > 0u);
+    look_at_patch(c, own, most);
   }
-  patches[2u * own.patch_index] = real4(low, close(c, own, mine) ? 0.0 : 1.0);
-  patches[2u * own.patch_index + 1u] = real4(high, real(bends(c, own)));
-  precise real3 wide = high - low;
-  raise(kLongestEdge, longest);
-  if (covered(c, low) && covered(c, high)) raise(kWidestPatch, max(max(wide.x, wide.y), wide.z));
-  atomicAdd(cells[bucket_of(c, cell_of_box(c, low, high, own.patch_index))], 1u);
+  raise(kLongestEdge, most.edge_squared);
+  raise(kWidestPatch, most.side);
 }

@@ -6,7 +6,7 @@
 // start. Which of its slots depends on who came first; cell_sort puts that right.
 
 #include "../shared/cells.glsl"
-READS  (real4, patches)
+READS_VECTORS(patches)
 READS  (uint, collision_state)
 UPDATES(uint, cells)
 WRITES (uint, cell_arrivals)

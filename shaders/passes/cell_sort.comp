@@ -6,7 +6,7 @@
 // Each invocation counts the smaller indices of its own bucket and writes one slot, its own: no races.
 
 #include "../shared/cells.glsl"
-READS (real4, patches)
+READS_VECTORS(patches)
 READS (uint, collision_state)
 READS (uint, cells)
 READS (uint, cell_arrivals)

@@ -10,10 +10,10 @@
 // Particle simulation using CUDA; Verlet 1967.
 
 #include "../shared/cells.glsl"
-READS(real4, position)
+READS_VECTORS(position)
 READS(uint, cells)
 READS(uint, cell_members)
-READS(real4, patches)
+READS_VECTORS(patches)
 READS(uint, patch_listed)
 UPDATES(uint, collision_state)
 WRITES(real4, built_position)
@@ -29,7 +29,7 @@ layout(local_size_x = kCollisionGroup) in;
 
 void add(Cells c, Own own, real3 x, uvec2 other, inout uint found) {
   uint place = other.y << c.column_bits | other.x;
-  precise real3 d = position[other.y * c.nx + other.x].xyz - x;
+  precise real3 d = load_position(other.y * c.nx + other.x).xyz - x;
   if (!(squared_length(d) < collision[0].limits[limit_row(c, own, place)].z)) return;
   if (found < collision[0].capacity) pair_places[found * c.count + own.particle] = place;
   ++found;
@@ -62,7 +62,7 @@ void main() {
   Cells c = cells_of_cloth();
   Own own;
   if (!own_particle(c, own)) return;
-  real4 here = position[own.particle];
+  real4 here = load_position(own.particle);
   built_position[own.particle] = here;
   uint found = 0u;
   Patches grid = patches_of(c);

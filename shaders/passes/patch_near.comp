@@ -11,7 +11,7 @@
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
-READS(real4, patches)
+READS_VECTORS(patches)
 READS(uint, cells)
 READS(uint, cell_members)
 READS(uint, collision_state)
@@ -42,12 +42,6 @@ Block wider(Patches grid, Block block) {
   uvec2 least = uvec2(0u, block.first_row);
   return Block(max(block.low, least + 1u) - 1u,
                min(block.high + 1u, least + uvec2(grid.nx, grid.ny) - 1u), block.first_row);
-}
-
-OwnPatch patch_at(Cells c, Patches grid, Block block, uvec2 at) {
-  uint cloth = block.first_row / grid.ny;
-  return OwnPatch(at.x, at.y, at.y * grid.nx + at.x, cloth * rows_of_cloth(),
-                  2u * uvec2(at.x, at.y - block.first_row), uvec2(c.nx, rows_of_cloth()) - 1u);
 }
 
 // The largest gap between two boxes along an axis.
@@ -201,11 +195,11 @@ void main() {
   Surroundings seen = look_around(grid, block, region, search);
   for (uint y = block.low.y; y <= block.high.y; ++y)
     for (uint x = block.low.x; x <= block.high.x; ++x) {
-      OwnPatch own = patch_at(c, grid, block, uvec2(x, y));
+      OwnPatch own = patch_at(c, grid, x, y);
       uvec2 place = uvec2(x, y) - block.low;
       bool far = false;
       if (patch_covered(c, own.patch_index)) {
-        far = overlooks || patches[2u * own.patch_index].w == 0.0;
+        far = overlooks || load_patches(2u * own.patch_index).w == 0.0;
         bool found = (seen.found >> (2u * place.y + place.x) & 1u) != 0u;
         if (!far) far = alone ? found : finds(c, grid, own, search);
       }

@@ -13,10 +13,10 @@
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
-READS(real4, position)
+READS_VECTORS(position)
 READS(uint, cells)
 READS(uint, cell_members)
-READS(real4, patches)
+READS_VECTORS(patches)
 READS(uint, patch_listed)
 UPDATES(uint, collision_state)
 WRITES(uint, surface_count)
@@ -31,7 +31,7 @@ layout(local_size_x = kCollisionGroup) in;
 #include "../shared/search_reach.glsl"
 #include "../shared/beside.glsl"
 
-real3 at(Cells c, ivec2 ij) { return position[uint(ij.y) * c.nx + uint(ij.x)].xyz; }
+real3 at(Cells c, ivec2 ij) { return load_position(uint(ij.y) * c.nx + uint(ij.x)).xyz; }
 
 real squared_between(real3 a, real3 b) {
   precise real3 d = b - a;
@@ -204,7 +204,7 @@ void main() {
     collision_state[kListGroups] = collision_state[kBlockGroups] = 0u;  // done
     collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;
   }
-  real3 x = position[own.particle].xyz;
+  real3 x = load_position(own.particle).xyz;
   uint found = 0u;
   Patches grid = patches_of(c);
   uint looks = patch_listed[patch_with(grid, own)];

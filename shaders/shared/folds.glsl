@@ -2,29 +2,45 @@
 // docs/float-form.md "Folds". The including pass declares `position` and includes cells.glsl, dot.glsl,
 // surface.glsl and patches.glsl first. Loops are unrolled, so that `around` can lie in registers.
 
-const int kAcross = 4;  // particles of a cell and one more on either side
+// The particles of a patch and two more on every side, row by row; beyond the cloth's ends its last one again.
+const int kAcross = 6;
 real3 around[kAcross * kAcross];
-bvec2 cell_before, cell_after;  // whether the cloth has cells to the left and above, to the right and below
+uint column_of[kAcross];  // that is read for each column: on the cloth
+// Whether the cloth has the column, and the row: 1 or 0. Where they are numbers nothing branches.
+uint has_column[kAcross], has_row[kAcross];
 
-uvec2 on_cloth(OwnPatch own, ivec2 at) { return uvec2(clamp(at, ivec2(0), ivec2(own.last))); }
-real3 position_at(Cells c, OwnPatch own, uvec2 at) {
-  return position[(own.first_row + at.y) * c.nx + at.x].xyz;
-}
-
-// Of the cell whose first particle is at this column and row.
-void look_around(Cells c, OwnPatch own, uvec2 cell) {
-  cell_before = greaterThan(cell, uvec2(0u));
-  cell_after = lessThan(cell + 1u, own.last);
-  [[unroll]] for (int j = 0; j < kAcross; ++j)
-    [[unroll]] for (int i = 0; i < kAcross; ++i)
-      around[j * kAcross + i] = position_at(c, own, on_cloth(own, ivec2(cell) + ivec2(i, j) - 1));
-}
-
-// By column and row; the cell's first particle is (1, 1).
+// By column and row; the patch's first particle is (2, 2).
 real3 x_at(int i, int j) { return around[j * kAcross + i]; }
-bool is_there(int i, int j) {
-  return (i > 0 || cell_before.x) && (j > 0 || cell_before.y) && (i < 3 || cell_after.x) &&
-         (j < 3 || cell_after.y);
+bool is_there(int i, int j) { return (has_column[i] & has_row[j]) != 0u; }
+
+void choose_columns(OwnPatch own) {
+  [[unroll]] for (int i = 0; i < kAcross; ++i) {
+    int column = int(own.low.x) + i - 2;
+    column_of[i] = uint(clamp(column, 0, int(own.last.x)));
+    has_column[i] = column >= 0 && column <= int(own.last.x) ? 1u : 0u;
+  }
+}
+
+// Rows `from` to the last of the patch's surroundings.
+void load_rows(Cells c, OwnPatch own, const int from) {
+  [[unroll]] for (int j = from; j < kAcross; ++j) {
+    uint first = (own.first_row + uint(clamp(int(own.low.y) + j - 2, 0, int(own.last.y)))) * c.nx;
+    [[unroll]] for (int i = 0; i < kAcross; ++i) around[j * kAcross + i] = load_position(first + column_of[i]).xyz;
+  }
+  [[unroll]] for (int j = 0; j < kAcross; ++j) {
+    int row = int(own.low.y) + j - 2;
+    has_row[j] = row >= 0 && row <= int(own.last.y) ? 1u : 0u;
+  }
+}
+
+// From a patch to the one below it: what both see stays in registers.
+void look_around(Cells c, OwnPatch own, bool is_below) {
+  if (!is_below) {
+    load_rows(c, own, 0);
+    return;
+  }
+  [[unroll]] for (int p = 0; p < (kAcross - 2) * kAcross; ++p) around[p] = around[p + 2 * kAcross];
+  load_rows(c, own, kAcross - 2);
 }
 
 // Two unit vectors at right angles, as near as they come to these two.
@@ -41,31 +57,31 @@ Frame frame_of(real3 along, real3 down) {
   return Frame(first, second);
 }
 
-// Whether a triangle with these edges takes every direction on the cloth to one that goes on by flat_min a
+// 1 when a triangle with these edges takes every direction on the cloth to one that goes on by `least` a
 // cell at least where the frame has it: the symmetric part of the map has no eigenvalue below that.
-bool goes_along(Frame frame, real3 edge_i, real3 edge_j) {
-  real least = collision[0].flat_min_m;
+uint goes_along(Frame frame, real least, real3 edge_i, real3 edge_j) {
   precise real a = dot3(frame.along, edge_i) - least, b = dot3(frame.down, edge_j) - least;
   precise real m = 0.5 * (dot3(frame.along, edge_j) + dot3(frame.down, edge_i));
   precise real off = m * m, both = a * b;
-  return a >= 0.0 && b >= 0.0 && both >= off;
+  return uint(a >= 0.0) & uint(b >= 0.0) & uint(both >= off);
 }
 
-// Whether the cloth within a cell of the cell bends so much that surfaces a cell apart on it may be in reach
-// of each other. Where the cloth ends the block ends.
-bool folded() {
-  real3 first = x_at(0, 0), beyond = x_at(3, 0), under = x_at(0, 3), last = x_at(3, 3);
+// Whether the cloth within a cell of the cell whose first particle is (i0, j0) bends so much that surfaces a
+// cell apart on it may be in reach of each other. Where the cloth ends the block ends.
+bool folded(const int i0, const int j0, real least) {
+  real3 first = x_at(i0 - 1, j0 - 1), beyond = x_at(i0 + 2, j0 - 1);
+  real3 under = x_at(i0 - 1, j0 + 2), last = x_at(i0 + 2, j0 + 2);
   precise real3 along = (beyond - first) + (last - under), down = (under - first) + (last - beyond);
   Frame frame = frame_of(along, down);
-  bool found = false;
-  [[unroll]] for (int j = 0; j < 3; ++j)
-    [[unroll]] for (int i = 0; i < 3; ++i) {
+  uint found = 0u;
+  [[unroll]] for (int n = 0; n < 9; ++n) {  // bounds that are known before anything is unrolled
+      const int i = i0 - 1 + n % 3, j = j0 - 1 + n / 3;
       precise real3 top = x_at(i + 1, j) - x_at(i, j), side = x_at(i, j + 1) - x_at(i, j);
       precise real3 bottom = x_at(i + 1, j + 1) - x_at(i, j + 1), far = x_at(i + 1, j + 1) - x_at(i + 1, j);
-      bool is_cell = is_there(i, j) && is_there(i + 1, j + 1);
-      found = found || (is_cell && !(goes_along(frame, top, side) && goes_along(frame, bottom, far)));
+      uint is_cell = has_column[i] & has_column[i + 1] & has_row[j] & has_row[j + 1];
+      found |= is_cell & ~(goes_along(frame, least, top, side) & goes_along(frame, least, bottom, far));
     }
-  return found;
+  return found != 0u;
 }
 
 // The ends of the edges that leave a cell's first particle, and its last, and do not touch the diagonal.
@@ -77,18 +93,18 @@ real on_way(real3 way, real3 from, real3 x) {
   return dot3(way, d);
 }
 
-// Whether three planes across that way, flat_min apart, part the diagonal from what leaves the two corners.
-bool apart() {
-  real3 here = x_at(1, 1), end = x_at(2, 2);
+// Whether three planes across that way, flat_min apart, part the cell's diagonal from what leaves the two.
+bool apart(const int i0, const int j0, real least) {
+  real3 here = x_at(i0, j0), end = x_at(i0 + 1, j0 + 1);
   precise real3 way = end - here;
-  real right = on_way(way, here, x_at(2, 1)), below = on_way(way, here, x_at(1, 2));
+  real right = on_way(way, here, x_at(i0 + 1, j0)), below = on_way(way, here, x_at(i0, j0 + 1));
   real before = 0.0, after = on_way(way, here, end);
   [[unroll]] for (int k = 0; k < 4; ++k) {
-    ivec2 a = 1 + kRing[kFromFirst[k]], b = 2 + kRing[kFromLast[k]];
-    if (is_there(a.x, a.y)) before = max(before, on_way(way, here, x_at(a.x, a.y)));
-    if (is_there(b.x, b.y)) after = min(after, on_way(way, here, x_at(b.x, b.y)));
+    ivec2 a = ivec2(i0, j0) + kRing[kFromFirst[k]], b = ivec2(i0, j0) + 1 + kRing[kFromLast[k]];
+    before = is_there(a.x, a.y) ? max(before, on_way(way, here, x_at(a.x, a.y))) : before;
+    after = is_there(b.x, b.y) ? min(after, on_way(way, here, x_at(b.x, b.y))) : after;
   }
-  precise real room = collision[0].flat_min_m * sqrt(dot3(way, way));
+  precise real room = least * sqrt(dot3(way, way));
   precise real ahead = min(right, below) - before, behind = after - max(right, below);
   return ahead > room && behind > room;
 }
@@ -98,40 +114,45 @@ bool triangle_in_reach(real3 p, real3 a, real3 b, real3 corner, real squared) {
   return dot3(d, d) < squared;
 }
 
-bool edge_in_reach(real3 a, real3 b, real3 e, ivec2 end, real squared) {
-  if (!is_there(end.x, end.y)) return false;
+bool edge_in_reach(real3 a, real3 b, real3 e, real3 f, real squared) {
   real s, t;
-  real3 f = x_at(end.x, end.y);
   closest_on_edges(a, b, e, f, s, t);
   real3 d = between_edges(a, b, e, f, s, t);
   return dot3(d, d) < squared;
 }
 
 // Whether the diagonal of the cell, or a triangle at it, may be in reach of the other corners or of the edges
-// that leave them: of all that is less than a cell from it on the cloth and does not touch it.
-bool creased() {
-  if (apart()) return false;
+// that leave them: of all that is less than a cell from it on the cloth and does not touch it. Cells whose
+// planes do not part them are few, and places in a loop would not be registers: it reads memory.
+bool diagonal_in_reach(Cells c, OwnPatch own, uvec2 cell) {
   precise real squared = collision[0].surface_reach_squared_m2 * 1.0009765625;
-  real3 here = x_at(1, 1), right = x_at(2, 1), below = x_at(1, 2), end = x_at(2, 2);
+  uint first = (own.first_row + cell.y) * c.nx + cell.x;
+  real3 here = load_position(first).xyz, right = load_position(first + 1u).xyz;
+  real3 below = load_position(first + c.nx).xyz, end = load_position(first + c.nx + 1u).xyz;
   bool found = triangle_in_reach(here, right, below, end, squared) ||
                triangle_in_reach(end, here, right, below, squared);
-  for (int k = 0; k < 8 && !found; ++k) {
-    bool from_first = k < 4;
-    ivec2 to = from_first ? 1 + kRing[kFromFirst[k]] : 2 + kRing[kFromLast[k - 4]];
-    found = edge_in_reach(right, below, from_first ? here : end, to, squared);
+  [[dont_unroll]] for (int k = 0; k < 8 && !found; ++k) {
+    ivec2 to = ivec2(cell) + (k < 4 ? kRing[kFromFirst[k]] : 1 + kRing[kFromLast[k - 4]]);
+    if (any(lessThan(to, ivec2(0))) || any(greaterThan(to, ivec2(own.last)))) continue;
+    real3 f = load_position((own.first_row + uint(to.y)) * c.nx + uint(to.x)).xyz;
+    found = edge_in_reach(right, below, k < 4 ? here : end, f, squared);
   }
   return found;
 }
 
 // Of the cells whose first particles are in the patch: a bit for each that is folded, and kCreased.
 uint bends(Cells c, OwnPatch own) {
-  uint bits = 0u;
-  [[dont_unroll]] for (uint k = 0u; k < 4u; ++k) {
-    uvec2 cell = own.low + uvec2(k % 2u, k / 2u);
-    if (any(greaterThanEqual(cell, own.last))) continue;
-    look_around(c, own, cell);
-    if (folded()) bits |= 1u << k;
-    if (creased()) bits |= kCreased;
+  real least = collision[0].flat_min_m;
+  uint bits = 0u, close = 0u;  // cells that bend, and that the planes do not part
+  [[unroll]] for (int k = 0; k < 4; ++k) {
+    const int i = 2 + k % 2, j = 2 + k / 2;
+    bool is_cell = (has_column[i + 1] & has_row[j + 1]) != 0u;
+    bits |= is_cell && folded(i, j, least) ? 1u << k : 0u;
+    close |= is_cell && !apart(i, j, least) ? 1u << k : 0u;
+  }
+  [[dont_unroll]] for (; close != 0u; close &= close - 1u) {
+    uint k = uint(findLSB(close));
+    if (diagonal_in_reach(c, own, own.low + uvec2(k % 2u, k / 2u))) bits |= kCreased;
   }
   return bits;
 }

@@ -23,4 +23,15 @@ WEFT_BUFFERS(WEFT_BINDING)
   layout(set = 0, binding = kBinding_##name) uniform samplerBuffer Texels_##name; \
   vec4 name##_texel(uint index) { return texelFetch(Texels_##name, int(index)); }
 
+// A buffer of real4 read by load_NAME(index): as texels where the kernel takes them.
+#ifdef WEFT_TEXELS
+#define READS_VECTORS(name) \
+  READS_TEXELS(name)        \
+  vec4 load_##name(uint index) { return name##_texel(index); }
+#else
+#define READS_VECTORS(name) \
+  READS(real4, name)        \
+  real4 load_##name(uint index) { return name[index]; }
+#endif
+
 layout(scalar, set = 0, binding = kBinding_params) restrict readonly buffer Block_params { Params params; };

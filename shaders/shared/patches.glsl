@@ -18,14 +18,14 @@ struct OwnPatch {
   uvec2 low, last;  // its first particle, and the last of the cloth, within the cloth
 };
 
+OwnPatch patch_at(Cells c, Patches grid, uint x, uint y) {
+  uint cloth = sheet_rows == 0u ? 0u : y / grid.ny;
+  return OwnPatch(x, y, y * grid.nx + x, cloth * rows_of_cloth(), 2u * uvec2(x, y - cloth * grid.ny),
+                  uvec2(c.nx, rows_of_cloth()) - 1u);
+}
+
 bool own_patch(Cells c, Patches grid, out OwnPatch own) {
-  own.x = gl_GlobalInvocationID.x;
-  own.y = gl_GlobalInvocationID.y;
-  own.patch_index = own.y * grid.nx + own.x;
-  uint cloth = own.y / grid.ny;
-  own.first_row = cloth * rows_of_cloth();
-  own.low = 2u * uvec2(own.x, own.y - cloth * grid.ny);
-  own.last = uvec2(c.nx, rows_of_cloth()) - 1u;
+  own = patch_at(c, grid, gl_GlobalInvocationID.x, gl_GlobalInvocationID.y);
   return own.x < grid.nx && own.y < grid.rows;
 }
 

@@ -96,8 +96,12 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
 
 }  // namespace
 
-const Pass cell_count =
-    list_pass("cell_count", "self-collision: boxes of patches, and how many each bucket of the grid holds",
-              mirror<float>, mirror<double>, shared::kListGroups, patch_domain);
+const Pass cell_count = [] {
+  Pass pass =
+      list_pass("cell_count", "self-collision: boxes of patches, and how many each bucket of the grid holds",
+                mirror<float>, mirror<double>, shared::kListGroups, patch_domain);
+  pass.marches = true;
+  return pass;
+}();
 
 }  // namespace weft

@@ -94,6 +94,7 @@ constexpr Pass list_pass(std::string_view name, std::string_view about, decltype
   pass.domain = domain;
   pass.interval = list_interval;
   pass.settle_order = settle_order;
+  pass.takes_texels = groups_word != shared::kScanGroups;  // all others read positions or boxes
   return pass;
 }
 

@@ -41,6 +41,7 @@ VkBufferUsageFlags usage_of(BufferId id) {
     case BufferId::position:
     case BufferId::position_next:
       return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    case BufferId::patches:
     case BufferId::velocity:
     case BufferId::velocity_next: return kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     case BufferId::draw_position:
@@ -173,10 +174,17 @@ GpuProgram::Variant GpuProgram::variant_for(const gpu::Device& device, const Pla
             kernel.columns,
             kernel.rows};
   }
-  const std::uint32_t rows = step.pass->marches ? kernel.rows : 1;
+  const std::uint32_t rows = step.pass == &integrate ? kernel.rows
+                             : step.pass->marches    ? march_rows(device, step.range.y)
+                                                     : 1;
   const std::vector<std::uint32_t> constants(step.pass->marches ? 1 : 0, rows);
   const bool texel = step.pass == &integrate && kernel.kind == KernelKind::texel;
-  return {name + (texel ? "_texel.comp" : ".comp") + (doubles ? "+WEFT_F64" : ""), constants, 1, rows};
+  const bool texels = step.pass->takes_texels && !doubles && kernel.kind != KernelKind::direct;
+  return {name + (texel ? "_texel.comp" : ".comp") +
+              (doubles  ? "+WEFT_F64"
+               : texels ? "+WEFT_TEXELS"
+                        : ""),
+          constants, 1, rows};
 }
 
 GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& buffers,

@@ -30,12 +30,6 @@ const PlanStep* substep_integrate(const Plan& plan) {
   return nullptr;
 }
 
-/// Marching down rows saves loads and coefficients, which is what a software device's time goes to; it keeps
-/// at least about 16 rows of workgroups for its threads. A GPU needs the invocations.
-std::uint32_t march_rows(const gpu::Device& device, std::uint32_t ny) {
-  return device.info().software ? std::clamp(ny / 16, 4u, 16u) : 1;
-}
-
 /// Why there is no such step.
 std::string no_integrate(const Plan& plan) {
   return plan.in_double() ? "it computes in float, and this plan is in double (f64)"
@@ -113,6 +107,10 @@ std::string describe(const Kernel& k) {
     return fmt::format("{} {}x{} from {} queues", name, k.columns, k.rows, k.queues);
   if (k.kind != KernelKind::bands) return fmt::format("{} {}x{}", name, k.columns, k.rows);
   return fmt::format("{} {}x{}, {} substeps a dispatch", name, k.bands, k.columns, k.substeps);
+}
+
+std::uint32_t march_rows(const gpu::Device& device, std::uint32_t rows) {
+  return device.info().software ? std::clamp(rows / 16, 4u, 16u) : 1;
 }
 
 std::span<const std::string_view> kernel_names() { return kNames; }
