@@ -13,7 +13,11 @@
 #include "../shared/dot.glsl"
 READS_VECTORS(position)
 UPDATES(uint, collision_state)
+WRITES(real4, built_position)
 WRITES(real4, patches)
+WRITES(uint, pair_count)
+WRITES(uint, surface_count)
+WRITES(uint, surface_bound)
 UPDATES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
@@ -60,6 +64,19 @@ struct Greatest {
   real edge_squared, side;
 };
 
+// Where the patch's particles are as the lists are made; and their lists, empty until they are found to have
+// something near.
+void begin_lists(Cells c, OwnPatch own) {
+  [[unroll]] for (int k = 0; k < 4; ++k) {
+    const int i = 2 + k % 2, j = 2 + k / 2;
+    uint p = (own.first_row + own.low.y + uint(k / 2)) * c.nx + own.low.x + uint(k % 2);
+    if (!is_there(i, j)) continue;
+    built_position[p] = real4(x_at(i, j), 0.0);
+    pair_count[p] = surface_count[p] = 0u;
+    surface_bound[p] = kInfinity;
+  }
+}
+
 void look_at_patch(Cells c, OwnPatch own, inout Greatest most) {
   real3 low = x_at(2, 2), high = low;
   [[unroll]] for (int k = 0; k < 4; ++k) {  // at the cloth's end one of them again
@@ -68,6 +85,7 @@ void look_at_patch(Cells c, OwnPatch own, inout Greatest most) {
     high = max(high, x_at(i, j));
     most.edge_squared = max(most.edge_squared, longest_edge(i, j));
   }
+  begin_lists(c, own);
   patches[2u * own.patch_index] = real4(low, close() ? 0.0 : 1.0);
   patches[2u * own.patch_index + 1u] = real4(high, real(bends(c, own)));
   precise real3 wide = high - low;

@@ -39,6 +39,7 @@ void main() {
     cells[buckets] = sums[gl_WorkGroupSize.x - 1u];
     collision_state[kListsBuilt] += 1u;
     collision_state[kListsArmed] = 1u;
+    collision_state[kLookers] = 0u;  // until patch_near finds them
     collision_state[kPairsListed] = collision_state[kContactGroups] = 0u;  // until a list has an entry
   }
 }

@@ -51,7 +51,7 @@ void mark_contacts(Cells c) {
 void mark_stale(Cells c) {
   atomicOr(collision_state[kListGroups], ((c.nx + 1u) / 2u + kCollisionGroup - 1u) / kCollisionGroup);
   atomicOr(collision_state[kBlockGroups], ((c.nx + 3u) / 4u + kCollisionGroup - 1u) / kCollisionGroup);
-  atomicOr(collision_state[kNearGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
+  atomicOr(collision_state[kNearGroups], 1u);  // at least: patch_near knows how many
   atomicOr(collision_state[kScanGroups], 1u);
 }
 

@@ -6,7 +6,7 @@
 // before the lists are made anew: the particles of the patches in the cells round it that are within limit
 // + skin, but for its eight neighbours on the cloth, which are in the springs' charge. A bucket may hold
 // patches of several cells, and each is taken only where its own cell is asked for, so none is taken twice.
-// Keeps the positions. Each invocation writes its own particle's list: no races. Source: Green 2008,
+// Each invocation writes its own particle's list: no races. Source: Green 2008,
 // Particle simulation using CUDA; Verlet 1967.
 
 #include "../shared/cells.glsl"
@@ -16,7 +16,7 @@ READS(uint, cell_members)
 READS_VECTORS(patches)
 READS(uint, patch_listed)
 UPDATES(uint, collision_state)
-WRITES(real4, built_position)
+READS(uint, lookers)
 WRITES(uint, pair_count)
 WRITES(uint, pair_places)
 
@@ -57,17 +57,11 @@ void search_around(Cells c, Patches grid, Own own, real3 x, inout uint found) {
       }
 }
 
-void main() {
-  if (collision_state[kNearGroups] == 0u) return;
-  Cells c = cells_of_cloth();
-  Own own;
-  if (!own_particle(c, own)) return;
-  real4 here = load_position(own.particle);
-  built_position[own.particle] = here;
+void make_list(Cells c, Patches grid, Own own) {
+  real3 x = load_position(own.particle).xyz;
+  if (!covered(c, x) || (patch_listed[patch_with(grid, own)] & kLooksFar) == 0u) return;
   uint found = 0u;
-  Patches grid = patches_of(c);
-  if (covered(c, here.xyz) && (patch_listed[patch_with(grid, own)] & kLooksFar) != 0u)
-    search_around(c, grid, own, here.xyz, found);
+  search_around(c, grid, own, x, found);
   uint kept = min(found, collision[0].capacity);
   pair_count[own.particle] = kept;
   if (kept > 0u) {
@@ -75,4 +69,12 @@ void main() {
     atomicOr(collision_state[kContactGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
   }
   if (found > kept) atomicAdd(collision_state[kPairsDropped], found - kept);
+}
+
+void main() {
+  if (collision_state[kNearGroups] == 0u) return;
+  Cells c = cells_of_cloth();
+  Patches grid = patches_of(c);
+  uint count = collision_state[kLookers], stride = gl_NumWorkGroups.x * kCollisionGroup;
+  for (uint k = gl_GlobalInvocationID.x; k < count; k += stride) make_list(c, grid, own_at(c, lookers[k]));
 }

@@ -14,8 +14,9 @@
 READS_VECTORS(patches)
 READS(uint, cells)
 READS(uint, cell_members)
-READS(uint, collision_state)
+UPDATES(uint, collision_state)
 WRITES(uint, patch_listed)
+WRITES(uint, lookers)
 
 layout(local_size_x = kCollisionGroup) in;
 
@@ -182,6 +183,21 @@ uint looks_beside(Surroundings seen, uvec2 place) {
   return looks;
 }
 
+// Puts those of the patch's particles that look for others where the passes find them that make their lists.
+void tell_lookers(Cells c, OwnPatch own, uint looks) {
+  uint who = (looks & kLooksFar) != 0u ? 15u : looks / kLooksBeside & 15u;
+  if (own.low.x == own.last.x) who &= 5u;  // at the cloth's ends a patch has fewer
+  if (own.low.y == own.last.y) who &= 3u;
+  if (who == 0u) return;
+  uint count = uint(bitCount(who)), slot = atomicAdd(collision_state[kLookers], count);
+  atomicMax(collision_state[kNearGroups], min((slot + count + kCollisionGroup - 1u) / kCollisionGroup, kLookGroupsMax));
+  for (; who != 0u; who &= who - 1u) {
+    uint k = uint(findLSB(who));
+    lookers[slot] = (own.first_row + own.low.y + k / 2u) << c.column_bits | (own.low.x + k % 2u);
+    ++slot;
+  }
+}
+
 void main() {
   if (collision_state[kListGroups] == 0u) return;
   Cells c = cells_of_cloth();
@@ -203,6 +219,8 @@ void main() {
         bool found = (seen.found >> (2u * place.y + place.x) & 1u) != 0u;
         if (!far) far = alone ? found : finds(c, grid, own, search);
       }
-      patch_listed[own.patch_index] = (far ? kLooksFar : 0u) | looks_beside(seen, place);
+      uint looks = (far ? kLooksFar : 0u) | looks_beside(seen, place);
+      patch_listed[own.patch_index] = looks;
+      tell_lookers(c, own, looks);
     }
 }

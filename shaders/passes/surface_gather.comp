@@ -18,10 +18,10 @@ READS(uint, cells)
 READS(uint, cell_members)
 READS_VECTORS(patches)
 READS(uint, patch_listed)
+READS(uint, lookers)
 UPDATES(uint, collision_state)
 WRITES(uint, surface_count)
 WRITES(uint, surface_pairs)
-WRITES(uint, surface_bound)
 
 layout(local_size_x = kCollisionGroup) in;
 
@@ -196,24 +196,26 @@ void search_around(Cells c, Patches grid, Own own, real3 x, uint looks, inout ui
   } while (seen > done);
 }
 
-void main() {
-  Cells c = cells_of_cloth();
-  Own own;
-  if (!own_particle(c, own)) return;
-  if (own.particle == 0u) {
-    collision_state[kListGroups] = collision_state[kBlockGroups] = 0u;  // done
-    collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;
-  }
+void make_list(Cells c, Patches grid, Own own) {
   real3 x = load_position(own.particle).xyz;
+  if (!covered(c, x)) return;
   uint found = 0u;
-  Patches grid = patches_of(c);
-  uint looks = patch_listed[patch_with(grid, own)];
-  if (looks != 0u && covered(c, x)) search_around(c, grid, own, x, looks, found);
+  search_around(c, grid, own, x, patch_listed[patch_with(grid, own)], found);
   uint kept = min(found, collision[0].surface_capacity);
   surface_count[own.particle] = kept;
-  surface_bound[own.particle] = kInfinity;
   if (found > kept) atomicAdd(collision_state[kPairsDropped], found - kept);
   if (kept == 0u) return;
   atomicOr(collision_state[kPairsListed], 1u);
   atomicOr(collision_state[kContactGroups], (c.nx + kCollisionGroup - 1u) / kCollisionGroup);
+}
+
+void main() {
+  Cells c = cells_of_cloth();
+  Patches grid = patches_of(c);
+  if (gl_GlobalInvocationID.x == 0u) {
+    collision_state[kListGroups] = collision_state[kBlockGroups] = 0u;  // done
+    collision_state[kNearGroups] = collision_state[kScanGroups] = 0u;
+  }
+  uint count = collision_state[kLookers], stride = gl_NumWorkGroups.x * kCollisionGroup;
+  for (uint k = gl_GlobalInvocationID.x; k < count; k += stride) make_list(c, grid, own_at(c, lookers[k]));
 }

@@ -53,6 +53,7 @@
   ROW(carrier, 45, real4, "motion that all of the cloth shares: three rows (collision.h)")             \
   ROW(reach_groups, 46, uint, "workgroups of passes that run only where there is need (reach.h)")      \
   ROW(patches, 47, real4, "boxes of 2 x 2 particles: low corner [m], 1 where spread; high, folds")     \
-  ROW(patch_listed, 48, uint, "which of a patch's particles look for others, and where")
+  ROW(patch_listed, 48, uint, "which of a patch's particles look for others, and where")               \
+  ROW(lookers, 49, uint, "places of those particles, as they came")
 
 #endif

@@ -45,6 +45,11 @@ uint particle_at(Cells c, uint place) {
   return ij.y * c.nx + ij.x;
 }
 
+Own own_at(Cells c, uint place) {
+  uvec2 ij = column_and_row(c, place);
+  return Own(ij.x, ij.y, ij.y * c.nx + ij.x, place);
+}
+
 // What a contact adds to touch_weight of a particle that moves by `weight` of it; never nothing.
 uint touch_units(real weight) {
   precise real units = weight * real(kTouchQuantum_1);

@@ -55,11 +55,12 @@ WEFT_CONST uint kListsArmed = 12u;    // 1: lists were made since the host wrote
 WEFT_CONST uint kHeldBack = 13u;      // how often a particle's motion was cut, all times together
 WEFT_CONST uint kLongestEdge = 14u;   // bits of the longest edge's square [m²] in float
 WEFT_CONST uint kSmallestGap = 15u;   // bits of the smallest distance [m] of two surfaces in this frame
-WEFT_CONST uint kNearGroups = 16u;    // x, y, z of the passes over the cloth that make the lists
+WEFT_CONST uint kNearGroups = 16u;    // x, y, z of the passes over those who look round
 WEFT_CONST uint kTouchGroups = 19u;   // x, y, z of the passes that push apart
 WEFT_CONST uint kWidestPatch = 22u;   // bits of the widest side of a patch's box [m] in float
 WEFT_CONST uint kBlockGroups = 23u;   // x, y, z of the pass over blocks of 2 x 2 patches
-WEFT_CONST uint kCollisionStateWords = 26u;
+WEFT_CONST uint kLookers = 26u;       // particles that look for others, of `lookers`
+WEFT_CONST uint kCollisionStateWords = 27u;
 WEFT_CONST uint kCarrierSamples = 64u;  // particles whose motion stands for the cloth's
 WEFT_CONST uint kCarrierBuilt = 0u;     // rows of `carrier`: since the lists were made [m]
 WEFT_CONST uint kCarrierNear = 1u;      // since contacts were last looked at [m]
@@ -88,6 +89,7 @@ WEFT_CONST uint kLooksBeside = 2u;  // of the first particle; those of the other
 WEFT_CONST uint kCreaseBeside = 32u;
 WEFT_CONST float kHalfRoot = 0.70710678f;  // of 1/2
 WEFT_CONST uint kCollisionGroup = 64u;     // invocations of a workgroup over the cloth
+WEFT_CONST uint kLookGroupsMax = 65535u;   // workgroups that every device has side by side
 
 WEFT_SHARED_END
 #endif

@@ -70,11 +70,23 @@ class PatchLook {
   std::uint32_t longest_ = 0, widest_ = 0;
 };
 
+/// Where the particles are as the lists are made, and lists without entries.
+template <class T>
+void begin_lists(const Grid& grid, HostBuffers<T>& buffers) {
+  auto& built = buffers[BufferId::built_position];
+  built = std::as_const(buffers)[BufferId::position];
+  for (auto& x : built) x.w = T(0);
+  for (const BufferId id : {BufferId::pair_count, BufferId::surface_count})
+    buffers.words_of(id).assign(grid.count(), 0);
+  buffers.words_of(BufferId::surface_bound).assign(grid.count(), shared::kInfinity);
+}
+
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   const CollisionView<T> view(context.model);
   const PatchGrid patches(context.model.grid);
+  begin_lists(context.model.grid, buffers);
   const auto& position = std::as_const(buffers)[BufferId::position];
   auto& boxes = buffers[BufferId::patches];
   boxes.resize(2 * std::size_t{patches.count()});

@@ -16,6 +16,7 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
   auto& state = buffers.words_of(BufferId::collision_state);
   ++state[shared::kListsBuilt];
   state[shared::kListsArmed] = 1;
+  state[shared::kLookers] = 0;
   state[shared::kPairsListed] = state[shared::kContactGroups] = 0;
 }
 

@@ -10,7 +10,7 @@
 namespace weft {
 namespace {
 
-/// Writes the list of one particle and returns how many entries found no room.
+/// Writes the list of one particle and returns how many entries there were, those without room as well.
 template <class T>
 std::uint32_t gather(const CollisionView<T>& view, const PatchGrid& patches, const PatchSearch<T>& search,
                      std::uint32_t particle, HostBuffers<T>& buffers) {
@@ -24,12 +24,12 @@ std::uint32_t gather(const CollisionView<T>& view, const PatchGrid& patches, con
       places[std::size_t{found} * position.size() + particle] = view.place_of(other);
     ++found;
   };
-  if (view.covered(position[particle]) &&
-      (buffers.words_of(BufferId::patch_listed)[patches.with(particle)] & shared::kLooksFar) != 0)
-    search.particles_around(patches, particle, place_in(position, particle), view.pair_reach, add);
-  const std::uint32_t kept = std::min(found, view.layout.capacity);
-  buffers.words_of(BufferId::pair_count)[particle] = kept;
-  return found - kept;
+  if (!view.covered(position[particle]) ||
+      (buffers.words_of(BufferId::patch_listed)[patches.with(particle)] & shared::kLooksFar) == 0)
+    return 0;
+  search.particles_around(patches, particle, place_in(position, particle), view.pair_reach, add);
+  buffers.words_of(BufferId::pair_count)[particle] = std::min(found, view.layout.capacity);
+  return found;
 }
 
 template <class T>
@@ -37,19 +37,17 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_in_making(buffers)) return;
   const CollisionView<T> view(context.model);
   const Grid& grid = context.model.grid;
-  buffers.words_of(BufferId::pair_count).resize(grid.count());
   buffers.words_of(BufferId::pair_places).resize(std::size_t{grid.count()} * view.layout.capacity);
-  buffers[BufferId::built_position] = std::as_const(buffers)[BufferId::position];
   const PatchGrid patches(grid);
   const PatchSearch<T> search(view, buffers);
-  std::atomic<std::uint32_t> dropped = 0;
-  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p)
-      dropped += gather(view, patches, search, p, buffers);
+  std::atomic<std::uint32_t> dropped = 0, listed = 0;
+  each_looker(view, buffers, [&](std::uint32_t p) {
+    const std::uint32_t found = gather(view, patches, search, p, buffers);
+    dropped += found - std::min(found, view.layout.capacity);
+    listed |= found;
   });
   buffers.words_of(BufferId::collision_state)[shared::kPairsDropped] += dropped;
-  if (std::ranges::any_of(buffers.words_of(BufferId::pair_count), [](auto n) { return n > 0; }))
-    mark_listed(grid, buffers);
+  if (listed != 0) mark_listed(grid, buffers);
 }
 
 }  // namespace

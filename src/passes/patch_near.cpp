@@ -119,6 +119,37 @@ std::uint32_t looks_beside(const CollisionView<T>& view, const PatchGrid& patche
   return bits;
 }
 
+/// Lists the particles that look for others, in the order of the patches.
+template <class T>
+void tell_lookers(const CollisionView<T>& view, const PatchGrid& patches, HostWords& buffers) {
+  const auto& listed = buffers.words_of(BufferId::patch_listed);
+  auto& lookers = buffers.words_of(BufferId::lookers);
+  lookers.resize(view.grid.count());
+  std::uint32_t count = 0;
+  for (std::uint32_t p = 0; p < patches.count(); ++p) {
+    if (listed[p] == 0) continue;
+    const PatchGrid::Block block = patches.block(p);
+    for (std::uint32_t j = block.j0; j <= block.j1; ++j)
+      for (std::uint32_t i = block.i0; i <= block.i1; ++i) {
+        const std::uint32_t looks = shared::kLooksFar | shared::kLooksBeside
+                                                            << ((j - block.j0) * 2 + (i - block.i0));
+        if ((listed[p] & looks) != 0) lookers[count++] = view.place_of(view.grid.index(i, j));
+      }
+  }
+  auto& state = buffers.words_of(BufferId::collision_state);
+  state[shared::kLookers] = count;
+  const std::uint32_t groups = (count + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
+  state[shared::kNearGroups] = std::clamp(groups, 1u, shared::kLookGroupsMax);
+}
+
+/// On the device they come in any order.
+void settle_order(HostWords& buffers) {
+  if (!lists_in_making(buffers)) return;
+  auto& lookers = buffers.words_of(BufferId::lookers);
+  const std::size_t count = buffers.words_of(BufferId::collision_state)[shared::kLookers];
+  std::sort(lookers.begin(), lookers.begin() + static_cast<std::ptrdiff_t>(std::min(count, lookers.size())));
+}
+
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
@@ -140,12 +171,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
         });
       }
   });
+  tell_lookers(view, patches, buffers);
 }
 
 }  // namespace
 
 const Pass patch_near =
     list_pass("patch_near", "self-collision: which particles may have others near, and where", mirror<float>,
-              mirror<double>, shared::kBlockGroups, block_domain);
+              mirror<double>, shared::kBlockGroups, block_domain, settle_order);
 
 }  // namespace weft

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "passes/collision.h"
+#include "passes/parallel.h"
 #include "passes/surface.h"
 
 namespace weft {
@@ -77,6 +78,18 @@ inline bool beside(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
   const std::uint32_t particles = grid.nx * grid.ny;
   return near(a % grid.nx, b % grid.nx) && near(a / grid.nx, b / grid.nx) && a / particles == b / particles;
+}
+
+/// Calls visit(particle) for each that looks for others, in threads.
+template <class T, class Visit>
+void each_looker(const CollisionView<T>& view, const HostWords& buffers, Visit&& visit) {
+  constexpr std::uint32_t kAtOnce = 64;  // particles
+  const auto& lookers = buffers.words_of(BufferId::lookers);
+  const std::uint32_t count = buffers.words_of(BufferId::collision_state)[shared::kLookers];
+  parallel_rows((count + kAtOnce - 1) / kAtOnce, kAtOnce, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t k = begin * kAtOnce; k < std::min(end * kAtOnce, count); ++k)
+      visit(view.particle_at(lookers[k]));
+  });
 }
 
 /// What the searches read: boxes of patches in a grid, and how far to look.

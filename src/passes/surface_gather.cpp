@@ -98,26 +98,23 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const std::size_t count = grid.count();
   auto& counts = buffers.words_of(BufferId::surface_count);
   auto& entries = buffers.words_of(BufferId::surface_pairs);
-  counts.resize(count);
   entries.resize(count * view.layout.surface_capacity);
   const PatchGrid patches(grid);
   const SurfaceSearch<T> search(view, patches, buffers);
   std::atomic<std::uint32_t> dropped = 0, listed = 0;
-  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
-      std::uint32_t found = 0;
-      const auto keep = [&](std::uint32_t code, std::uint32_t place) {
-        if (found < view.layout.surface_capacity)
-          entries[found * count + p] = code << shared::kSurfaceCodeShift | place;
-        ++found;
-      };
-      if (view.covered(std::as_const(buffers)[BufferId::position][p]) && !search.run(p, keep)) ++dropped;
-      counts[p] = std::min(found, view.layout.surface_capacity);
-      dropped += found - counts[p];
-      listed |= counts[p];
-    }
+  each_looker(view, buffers, [&](std::uint32_t p) {
+    if (!view.covered(std::as_const(buffers)[BufferId::position][p])) return;
+    std::uint32_t found = 0;
+    const auto keep = [&](std::uint32_t code, std::uint32_t place) {
+      if (found < view.layout.surface_capacity)
+        entries[found * count + p] = code << shared::kSurfaceCodeShift | place;
+      ++found;
+    };
+    if (!search.run(p, keep)) ++dropped;
+    counts[p] = std::min(found, view.layout.surface_capacity);
+    dropped += found - counts[p];
+    listed |= counts[p];
   });
-  buffers.words_of(BufferId::surface_bound).assign(count, shared::kInfinity);
   auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kPairsDropped] += dropped;
   for (const std::uint32_t word :

@@ -45,8 +45,8 @@ std::vector<std::uint32_t> initial_collision_state(const Model& model) {
   };
   rows_of_groups(shared::kListGroups, patch_domain(model).y);
   rows_of_groups(shared::kBlockGroups, block_domain(model).y);
-  rows_of_groups(shared::kScanGroups, 1);
-  for (const std::uint32_t word : {shared::kNearGroups, shared::kContactGroups, shared::kTouchGroups})
+  for (const std::uint32_t word : {shared::kScanGroups, shared::kNearGroups}) rows_of_groups(word, 1);
+  for (const std::uint32_t word : {shared::kContactGroups, shared::kTouchGroups})
     rows_of_groups(word, model.grid.rows());
   state[shared::kSmallestGap] = shared::kInfinity;
   return state;

@@ -72,19 +72,21 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
   static constexpr std::array kPairCheck = {params,          position,       velocity, collision,
                                             collision_state, built_position, cells,    near_position,
                                             surface_bound,   carrier};
-  static constexpr std::array kCellCount = {params, position, collision, collision_state, cells, patches};
+  static constexpr std::array kCellCount = {params,         position, collision,  collision_state,
+                                            built_position, cells,    pair_count, surface_count,
+                                            surface_bound,  patches};
   static constexpr std::array kCellScan = {collision, collision_state, cells};
   static constexpr std::array kCellFill = {params, collision, collision_state, cells, cell_arrivals, patches};
   static constexpr std::array kCellSort = {params,        collision,    collision_state, cells,
                                            cell_arrivals, cell_members, patches};
   static constexpr std::array kPatchNear = {params,       collision, collision_state, cells,
-                                            cell_members, patches,   patch_listed};
-  static constexpr std::array kPairGather = {params,         position, collision,    collision_state,
-                                             built_position, cells,    cell_members, pair_count,
-                                             pair_places,    patches,  patch_listed};
-  static constexpr std::array kSurfaceGather = {params,        position,     collision,     collision_state,
-                                                cells,         cell_members, surface_count, surface_pairs,
-                                                surface_bound, patches,      patch_listed};
+                                            cell_members, patches,   patch_listed,    lookers};
+  static constexpr std::array kPairGather = {params,  position,     collision,  collision_state,
+                                             cells,   cell_members, pair_count, pair_places,
+                                             patches, patch_listed, lookers};
+  static constexpr std::array kSurfaceGather = {params,  position,     collision,     collision_state,
+                                                cells,   cell_members, surface_count, surface_pairs,
+                                                patches, patch_listed, lookers};
   static constexpr std::array kTouchCount = {params,          position,      velocity,      collision,
                                              collision_state, pair_count,    pair_places,   touch_weight,
                                              near_position,   near_velocity, surface_bound, surface_sums};
