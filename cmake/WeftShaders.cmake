@@ -21,6 +21,7 @@ list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
 
 # What reads vectors as texels where the kernel does.
 set(texel_sources "")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shader_sources})  # which they are is said inside
 foreach(source ${shader_sources})
   file(STRINGS ${source} vectors REGEX "^READS_VECTORS")
   if(vectors)

@@ -3,8 +3,8 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "../shared/pass.glsl"
 
-// First third of the counting sort: the box of each patch, and how many patches each bucket of the grid
-// holds. And the longest edge and the widest box, by which the searches know how far to look; and where the
+// First third of the counting sort: the box of each patch and each block, and how many blocks each bucket of
+// the grid holds. And the longest edge and the widest block, by which the searches know how far to look; and where the
 // cloth is spread out and where it bends. Counts are integers added atomically: their sums do not depend
 // on the order, nor do the greatest. Source: Green 2008, Particle simulation using CUDA, "Building the grid
 // using atomic operations".
@@ -15,6 +15,7 @@ READS_VECTORS(position)
 UPDATES(uint, collision_state)
 WRITES(real4, built_position)
 WRITES(real4, patches)
+WRITES(real4, blocks)
 WRITES(uint, pair_count)
 WRITES(uint, surface_count)
 WRITES(uint, surface_bound)
@@ -88,9 +89,26 @@ void look_at_patch(Cells c, OwnPatch own, inout Greatest most) {
   begin_lists(c, own);
   patches[2u * own.patch_index] = real4(low, close() ? 0.0 : 1.0);
   patches[2u * own.patch_index + 1u] = real4(high, real(bends(c, own)));
+}
+
+// The block whose first patch this is: all its particles are around.
+void look_at_block(Cells c, uint index, inout Greatest most) {
+  real3 low = x_at(2, 2), high = low;
+  [[unroll]] for (int k = 1; k < 16; ++k) {
+    low = min(low, x_at(2 + k % 4, 2 + k / 4));
+    high = max(high, x_at(2 + k % 4, 2 + k / 4));
+  }
+  blocks[2u * index] = real4(low, 0.0);
+  blocks[2u * index + 1u] = real4(high, 0.0);
   precise real3 wide = high - low;
   if (covered(c, low) && covered(c, high)) most.side = max(most.side, max(max(wide.x, wide.y), wide.z));
-  atomicAdd(cells[bucket_of(c, cell_of_box(c, low, high, own.patch_index))], 1u);
+  atomicAdd(cells[bucket_of(c, cell_of_box(c, low, high, index))], 1u);
+}
+
+uint block_index(Patches grid, OwnPatch own) {
+  uvec2 blocks_each = blocks_of(grid);
+  uint cloth = sheet_rows == 0u ? 0u : own.first_row / rows_of_cloth();
+  return (cloth * blocks_each.y + own.low.y / 4u) * blocks_each.x + own.low.x / 4u;
 }
 
 void main() {
@@ -106,7 +124,9 @@ void main() {
     OwnPatch own = patch_at(c, grid, x, y);
     look_around(c, own, y > begin && own.low.y > 0u);
     look_at_patch(c, own, most);
+    uvec2 at = own.low / 2u;
+    if ((at.x & 1u) == 0u && (at.y & 1u) == 0u) look_at_block(c, block_index(grid, own), most);
   }
   raise(kLongestEdge, most.edge_squared);
-  raise(kWidestPatch, most.side);
+  raise(kWidestBlock, most.side);
 }

@@ -14,7 +14,7 @@
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
-READS(real4, built_position)
+READS_VECTORS(built_position)
 READS(real4, near_position)
 READS(uint, surface_bound)
 READS(real4, carrier)
@@ -25,7 +25,7 @@ WRITES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
 layout(push_constant) uniform Push { uint row_index, item; };
-layout(constant_id = 0) const uint rows = 1u;  // that an invocation marches down; the device's choice
+layout(constant_id = 0) const uint rows = 1u;  // that an invocation marches down, at most 32; the device's choice
 
 // Puts x back to within `most` of where the lists or contacts know it, and its velocity to as much of what it
 // was. `gone` is how far it is from there.
@@ -57,24 +57,29 @@ void mark_stale(Cells c) {
 
 // What is the same for all particles, read once.
 struct Look {
-  bool armed;
   real stale_squared, most, most_squared;
   real3 with_lists;  // motion that all share, since the lists were made
 };
 
-void look_at(Cells c, Look look, uint p) {
-  if (p <= c.bucket_mask + 1u) cells[p] = 0u;
-  if (!look.armed) return;
+real3 gone_since_lists(Look look, uint p, real3 x) {
+  precise real3 gone = (x - load_built_position(p).xyz) - look.with_lists;
+  return gone;
+}
+
+// Whether the particle may have gone farther than it may, and whether the lists are stale with it.
+bool look_at(Look look, uint p, inout bool stale) {
   real4 x = position[p];
-  precise real3 gone = (x.xyz - built_position[p].xyz) - look.with_lists;
-  real q = squared_length(gone);
-  if (!(q <= look.stale_squared)) mark_stale(c);
-  if (x.w == 0.0) return;
-  uint bits = surface_bound[p];
-  if (!(q > look.most_squared) && bits == kInfinity) return;
+  real q = squared_length(gone_since_lists(look, p, x.xyz));
+  stale = stale || !(q <= look.stale_squared);
+  return x.w != 0.0 && (q > look.most_squared || surface_bound[p] != kInfinity);
+}
+
+void keep_in_room(Look look, uint p) {
+  real4 x = position[p];
   real3 x1 = x.xyz, v0 = velocity[p].xyz, v1 = v0;
   real3 shared_v = carrier[kCarrierVelocity].xyz;
-  hold_back(x1, v1, gone, look.most, shared_v);
+  hold_back(x1, v1, gone_since_lists(look, p, x.xyz), look.most, shared_v);
+  uint bits = surface_bound[p];
   if (bits != kInfinity) {
     precise real3 since = (x1 - near_position[p].xyz) - carrier[kCarrierNear].xyz;
     real near = real(uintBitsToFloat(bits));
@@ -86,9 +91,15 @@ void look_at(Cells c, Look look, uint p) {
   velocity[p] = real4(v1, 0.0);
 }
 
+void empty_grid(Cells c) {
+  uint all = gl_NumWorkGroups.x * gl_WorkGroupSize.x * gl_NumWorkGroups.y;
+  uint own = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+  for (uint b = own; b <= c.bucket_mask + 1u; b += all) cells[b] = 0u;
+}
+
 void begin_look(Cells c) {
   bool first = row_index == 0u;
-  collision_state[kLongestEdge] = collision_state[kWidestPatch] = 0u;
+  collision_state[kLongestEdge] = collision_state[kWidestBlock] = 0u;
   if (first) collision_state[kSmallestGap] = kInfinity;
   if (first) mark_stale(c);
   mark_contacts(c);
@@ -96,16 +107,23 @@ void begin_look(Cells c) {
 
 void main() {
   Cells c = cells_of_cloth();
+  empty_grid(c);
   uint i = gl_GlobalInvocationID.x, first_row = gl_GlobalInvocationID.y * rows;
   if (i >= c.nx || first_row >= c.ny) return;
   if (i == 0u && first_row == 0u) begin_look(c);
+  if (collision_state[kListsArmed] == 0u) return;
   Look look;
-  look.armed = collision_state[kListsArmed] != 0u;
   look.stale_squared = collision[0].moved_squared_max_m2;
   look.most = collision[0].roam_max_m;
   precise real most_squared = look.most * look.most;
   look.most_squared = most_squared;
   look.with_lists = carrier[kCarrierBuilt].xyz;
-  uint end_row = min(first_row + rows, c.ny);
-  for (uint j = first_row; j < end_row; ++j) look_at(c, look, j * c.nx + i);
+  // Few have to be held back: those wait, since devices that run invocations in step pay for what any does.
+  uint waiting = 0u, count = min(rows, c.ny - first_row);
+  bool stale = false;
+  for (uint r = 0u; r < count; ++r)
+    if (look_at(look, (first_row + r) * c.nx + i, stale)) waiting |= 1u << r;
+  if (stale) mark_stale(c);
+  for (; waiting != 0u; waiting &= waiting - 1u)
+    keep_in_room(look, (first_row + uint(findLSB(waiting))) * c.nx + i);
 }

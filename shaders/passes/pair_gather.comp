@@ -14,6 +14,7 @@ READS_VECTORS(position)
 READS(uint, cells)
 READS(uint, cell_members)
 READS_VECTORS(patches)
+READS_VECTORS(blocks)
 READS(uint, patch_listed)
 UPDATES(uint, collision_state)
 READS(uint, lookers)
@@ -23,6 +24,7 @@ WRITES(uint, pair_places)
 layout(local_size_x = kCollisionGroup) in;
 
 #include "../shared/patches.glsl"
+#include "../shared/block_boxes.glsl"
 #include "../shared/patch_boxes.glsl"
 #include "../shared/search_reach.glsl"
 #include "../shared/beside.glsl"
@@ -42,6 +44,15 @@ void add_patch(Cells c, Patches grid, Own own, real3 x, uint patch_index, inout 
       if (!beside(own, uvec2(i, j))) add(c, own, x, uvec2(i, j), found);
 }
 
+void add_block(Cells c, Patches grid, Own own, real3 x, uint block_index, inout uint found) {
+  uint across = blocks_of(grid).x;
+  Block block = block_at(grid, uvec2(block_index % across, block_index / across));
+  for (uint j = block.low.y; j <= block.high.y; ++j)
+    for (uint i = block.low.x; i <= block.high.x; ++i)
+      if (patch_reaches(j * grid.nx + i, x, collision[0].pair_reach_m))
+        add_patch(c, grid, own, x, j * grid.nx + i, found);
+}
+
 void search_around(Cells c, Patches grid, Own own, real3 x, inout uint found) {
   CellRange range = cells_around(c, x, x, collision[0].pair_reach_m);
   for (int k = range.first.z; k <= range.last.z; ++k)
@@ -51,8 +62,8 @@ void search_around(Cells c, Patches grid, Own own, real3 x, inout uint found) {
         uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
         for (uint slot = cells[bucket]; slot < end; ++slot) {
           uint other = cell_members[slot];
-          if (box_reaches(other, x, collision[0].pair_reach_m) && cell_of_patch(c, other) == cell)
-            add_patch(c, grid, own, x, other, found);
+          if (block_reaches(other, x, collision[0].pair_reach_m) && cell_of_block(c, other) == cell)
+            add_block(c, grid, own, x, other, found);
         }
       }
 }

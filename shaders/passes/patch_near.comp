@@ -12,6 +12,7 @@
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
 READS_VECTORS(patches)
+READS_VECTORS(blocks)
 READS(uint, cells)
 READS(uint, cell_members)
 UPDATES(uint, collision_state)
@@ -21,39 +22,19 @@ WRITES(uint, lookers)
 layout(local_size_x = kCollisionGroup) in;
 
 #include "../shared/patches.glsl"
+#include "../shared/block_boxes.glsl"
 #include "../shared/patch_boxes.glsl"
 #include "../shared/search_reach.glsl"
 
-// Two by two patches of one cloth: columns and rows of patches, both ends included.
-struct Block {
-  uvec2 low, high;
-  uint first_row;  // of patches, of their cloth
-};
-
-bool own_block(Patches grid, out Block block) {
-  uint down = (grid.ny + 1u) / 2u, x = gl_GlobalInvocationID.x, y = gl_GlobalInvocationID.y;
-  block.first_row = y / down * grid.ny;
-  block.low = uvec2(2u * x, block.first_row + 2u * (y % down));
-  block.high = min(block.low + 1u, uvec2(grid.nx, block.first_row + grid.ny) - 1u);
-  return block.low.x < grid.nx && block.low.y < grid.rows;
-}
-
-// With the patches beside it on the cloth.
+// With the blocks beside it on the cloth.
 Block wider(Patches grid, Block block) {
   uvec2 least = uvec2(0u, block.first_row);
-  return Block(max(block.low, least + 1u) - 1u,
-               min(block.high + 1u, least + uvec2(grid.nx, grid.ny) - 1u), block.first_row);
-}
-
-// The largest gap between two boxes along an axis.
-real apart_by(real3 low_a, real3 high_a, real3 low_b, real3 high_b) {
-  precise real3 before = low_a - high_b, after = low_b - high_a;
-  real3 gap = max(before, after);
-  return max(max(gap.x, gap.y), gap.z);
+  return Block(max(block.low, least + 2u) - 2u,
+               min(block.low + 3u, least + uvec2(grid.nx, grid.ny) - 1u), block.first_row);
 }
 
 bool within(uint other, real3 low, real3 high, real search) {
-  return apart_by(patch_low(other), patch_high(other), low, high) < search;
+  return gap_between(patch_low(other), patch_high(other), low, high) < search;
 }
 
 // What is far is told by its box first: to divide an index is dear on devices that do it lane by lane.
@@ -68,9 +49,11 @@ bool patch_covered(Cells c, uint patch_index) {
   return covered(c, patch_low(patch_index)) && covered(c, patch_high(patch_index));
 }
 
-bool has_patch(Patches grid, Block region, uint other) {
-  uvec2 at = uvec2(other % grid.nx, other / grid.nx);
-  return all(greaterThanEqual(at, region.low)) && all(lessThanEqual(at, region.high));
+// Whether a block, by its index, is the own one or beside it on the cloth.
+bool beside_block(Patches grid, uvec2 own, uint other) {
+  uvec2 each = blocks_of(grid), at = uvec2(other % each.x, other / each.x);
+  bool near = at.x + 1u >= own.x && at.x <= own.x + 1u && at.y + 1u >= own.y && at.y <= own.y + 1u;
+  return near && (sheet_rows == 0u || at.y / each.y == own.y / each.y);
 }
 
 // Along x, then y, then z; behind the last one beyond range.last.z.
@@ -81,17 +64,11 @@ ivec3 next_cell(ivec3 cell, CellRange range) {
   return cell;
 }
 
-// Whether no patch but the block's and those beside it is near the box of them all.
-bool is_alone(Cells c, Patches grid, Block block, Block region, real search) {
-  uint first = block.low.y * grid.nx + block.low.x;
-  real3 low = patch_low(first), high = patch_high(first);
-  for (uint y = block.low.y; y <= block.high.y; ++y)
-    for (uint x = block.low.x; x <= block.high.x; ++x) {
-      uint p = y * grid.nx + x;
-      if (!patch_covered(c, p)) return false;
-      low = min(low, patch_low(p));
-      high = max(high, patch_high(p));
-    }
+// Whether no block but those beside it is near the block of this column and row.
+bool is_alone(Cells c, Patches grid, uvec2 own, real search) {
+  uint index = own.y * blocks_of(grid).x + own.x;
+  real3 low = block_low(index), high = block_high(index);
+  if (!covered(c, low) || !covered(c, high)) return false;
   CellRange range = cells_around(c, low, high, search);
   if (!range.whole) return false;
   // One loop over cells and what is in them, so that invocations that a device runs in step do not wait for
@@ -108,10 +85,20 @@ bool is_alone(Cells c, Patches grid, Block block, Block region, real search) {
     if (slot < end) {
       uint other = cell_members[slot];
       ++slot;
-      if (within(other, low, high, search) && !has_patch(grid, region, other)) return false;
+      bool near = gap_between(block_low(other), block_high(other), low, high) < search;
+      if (near && !beside_block(grid, own, other)) return false;
     }
   }
   return true;
+}
+
+bool block_has(Cells c, Patches grid, OwnPatch own, uint block_index, real3 low, real3 high, real search) {
+  uint across = blocks_of(grid).x;
+  Block block = block_at(grid, uvec2(block_index % across, block_index / across));
+  for (uint y = block.low.y; y <= block.high.y; ++y)
+    for (uint x = block.low.x; x <= block.high.x; ++x)
+      if (is_near(own, y * grid.nx + x, grid, low, high, search)) return true;
+  return false;
 }
 
 bool finds(Cells c, Patches grid, OwnPatch own, real search) {
@@ -122,8 +109,11 @@ bool finds(Cells c, Patches grid, OwnPatch own, real search) {
     for (int j = range.first.y; j <= range.last.y; ++j)
       for (int i = range.first.x; i <= range.last.x; ++i) {
         uint bucket = bucket_of(c, ivec3(i, j, k)), end = cells[bucket + 1u];
-        for (uint slot = cells[bucket]; slot < end; ++slot)
-          if (is_near(own, cell_members[slot], grid, low, high, search)) return true;
+        for (uint slot = cells[bucket]; slot < end; ++slot) {
+          uint other = cell_members[slot];
+          bool near = gap_between(block_low(other), block_high(other), low, high) < search;
+          if (near && block_has(c, grid, own, other, low, high, search)) return true;
+        }
       }
   return false;
 }
@@ -139,7 +129,7 @@ uint cells_at(uint bits, ivec2 at) {
   return cells_folded;
 }
 
-// What the block and the patches beside it say of the block's four patches, row by row.
+// What the block and those beside it say of the block's four patches, row by row.
 struct Surroundings {
   uint found;    // a bit for each that has another near it, but not beside it, among them
   uint folds;    // of the five by five cells at its particles
@@ -161,10 +151,11 @@ Surroundings look_around(Patches grid, Block block, Block region, real search) {
       real3 other_low = patch_low(other), other_high = patch_high(other);
       [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         bool beside = x + 1u >= at[k].x && x <= at[k].x + 1u && y + 1u >= at[k].y && y <= at[k].y + 1u;
-        if (!beside && apart_by(other_low, other_high, low[k], high[k]) < search) seen.found |= 1u << k;
+        if (!beside && gap_between(other_low, other_high, low[k], high[k]) < search) seen.found |= 1u << k;
       }
-      uint bits = folds_in(other);
       uvec2 place = uvec2(x, y) + 1u - block.low;  // among the four by four
+      if (any(greaterThan(place, uvec2(3u)))) continue;
+      uint bits = folds_in(other);
       seen.folds |= cells_at(bits, 2 * ivec2(place) - 1);
       if ((bits & kCreased) != 0u) seen.creases |= 1u << (4u * place.y + place.x);
     }
@@ -202,12 +193,14 @@ void main() {
   if (collision_state[kListGroups] == 0u) return;
   Cells c = cells_of_cloth();
   Patches grid = patches_of(c);
-  Block block;
-  if (!own_block(grid, block)) return;
+  uint index;
+  if (!own_block_index(grid, index)) return;
+  uvec2 at = gl_GlobalInvocationID.xy;
+  Block block = block_at(grid, at);
   Block region = wider(grid, block);
   real search = search_distance();
   bool overlooks = !(search <= collision[0].patch_search_m);  // edges are longer than expected
-  bool alone = !overlooks && is_alone(c, grid, block, region, search);
+  bool alone = !overlooks && is_alone(c, grid, at, search);
   Surroundings seen = look_around(grid, block, region, search);
   for (uint y = block.low.y; y <= block.high.y; ++y)
     for (uint x = block.low.x; x <= block.high.x; ++x) {

@@ -17,6 +17,7 @@ READS_VECTORS(position)
 READS(uint, cells)
 READS(uint, cell_members)
 READS_VECTORS(patches)
+READS_VECTORS(blocks)
 READS(uint, patch_listed)
 READS(uint, lookers)
 UPDATES(uint, collision_state)
@@ -27,6 +28,7 @@ layout(local_size_x = kCollisionGroup) in;
 
 #include "../shared/surface.glsl"
 #include "../shared/patches.glsl"
+#include "../shared/block_boxes.glsl"
 #include "../shared/patch_boxes.glsl"
 #include "../shared/search_reach.glsl"
 #include "../shared/beside.glsl"
@@ -158,6 +160,17 @@ void search_patch(Cells c, Patches grid, Own own, real3 x, uint patch_index, rea
     }
 }
 
+void search_block(Cells c, Patches grid, Own own, real3 x, uint block_index, real search, uint done,
+                  inout uint seen) {
+  uint across = blocks_of(grid).x;
+  Block block = block_at(grid, uvec2(block_index % across, block_index / across));
+  real distance_m = sqrt(search) * 1.0009765625;
+  for (uint j = block.low.y; j <= block.high.y; ++j)
+    for (uint i = block.low.x; i <= block.high.x; ++i)
+      if (patch_reaches(j * grid.nx + i, x, distance_m))
+        search_patch(c, grid, own, x, j * grid.nx + i, search, done, seen);
+}
+
 void search_cells(Cells c, Patches grid, Own own, real3 x, CellRange range, real search, uint done,
                   inout uint seen) {
   real distance_m = sqrt(search) * 1.0009765625;
@@ -168,8 +181,8 @@ void search_cells(Cells c, Patches grid, Own own, real3 x, CellRange range, real
         uint bucket = bucket_of(c, cell), end = cells[bucket + 1u];
         for (uint slot = cells[bucket]; slot < end; ++slot) {
           uint other = cell_members[slot];
-          if (box_reaches(other, x, distance_m) && cell_of_patch(c, other) == cell)
-            search_patch(c, grid, own, x, other, search, done, seen);
+          if (block_reaches(other, x, distance_m) && cell_of_block(c, other) == cell)
+            search_block(c, grid, own, x, other, search, done, seen);
         }
       }
 }

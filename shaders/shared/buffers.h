@@ -25,9 +25,9 @@
   ROW(collision, 17, Collision, "self-collision: limits, grid and room (collision.h)")                 \
   ROW(collision_state, 18, uint, "whether the pair lists are stale; counts (collision.h)")             \
   ROW(built_position, 19, real4, "m, when the pair lists were made; w unused")                         \
-  ROW(cells, 20, uint, "grid: patches counted, then ends, then starts of buckets, and total")          \
-  ROW(cell_arrivals, 21, uint, "patches bucket by bucket, as they came")                               \
-  ROW(cell_members, 22, uint, "patches bucket by bucket, ascending")                                   \
+  ROW(cells, 20, uint, "grid: blocks counted, then ends, then starts of buckets, and total")          \
+  ROW(cell_arrivals, 21, uint, "blocks bucket by bucket, as they came")                                \
+  ROW(cell_members, 22, uint, "blocks bucket by bucket, ascending")                                    \
   ROW(pair_count, 23, uint, "entries of a particle's list")                                            \
   ROW(pair_places, 24, uint, "lists: entry k of particle p at k * particles + p")                      \
   ROW(touch_weight, 25, uint, "weights of the contacts that a particle is in, added up (collision.h)") \
@@ -54,6 +54,7 @@
   ROW(reach_groups, 46, uint, "workgroups of passes that run only where there is need (reach.h)")      \
   ROW(patches, 47, real4, "boxes of 2 x 2 particles: low corner [m], 1 where spread; high, folds")     \
   ROW(patch_listed, 48, uint, "which of a patch's particles look for others, and where")               \
-  ROW(lookers, 49, uint, "places of those particles, as they came")
+  ROW(lookers, 49, uint, "places of those particles, as they came")                                    \
+  ROW(blocks, 50, real4, "boxes of 4 x 4 particles, which the grid holds: low corner [m]; high")
 
 #endif

@@ -1,6 +1,6 @@
-// Patches: blocks of 2 x 2 particles of one cloth. They are what the grid holds, and only the particles of
-// those that have another near look for more than their neighbours. docs/float-form.md "Patches". The
-// including pass includes cells.glsl first.
+// Patches of 2 x 2 particles of one cloth, and blocks of 2 x 2 patches. Blocks are what the grid holds, and only
+// the particles of patches that have another near look for more than their neighbours. docs/float-form.md
+// "Patches". The including pass includes cells.glsl first.
 
 struct Patches {
   uint nx, ny, rows;  // of one cloth; of all
@@ -24,9 +24,30 @@ OwnPatch patch_at(Cells c, Patches grid, uint x, uint y) {
                   uvec2(c.nx, rows_of_cloth()) - 1u);
 }
 
-bool own_patch(Cells c, Patches grid, out OwnPatch own) {
-  own = patch_at(c, grid, gl_GlobalInvocationID.x, gl_GlobalInvocationID.y);
-  return own.x < grid.nx && own.y < grid.rows;
+// Two by two patches: columns and rows of patches, both ends included.
+struct Block {
+  uvec2 low, high;
+  uint first_row;  // of patches, of their cloth
+};
+
+// How many blocks side by side, and one above the other on each cloth.
+uvec2 blocks_of(Patches grid) { return (uvec2(grid.nx, grid.ny) + 1u) / 2u; }
+
+Block block_at(Patches grid, uvec2 at) {
+  uint down = blocks_of(grid).y, cloth = sheet_rows == 0u ? 0u : at.y / down, first_row = cloth * grid.ny;
+  uvec2 low = uvec2(2u * at.x, first_row + 2u * (at.y - cloth * down));
+  return Block(low, min(low + 1u, uvec2(grid.nx, first_row + grid.ny) - 1u), first_row);
+}
+
+// Of all cloths.
+uint block_rows(Patches grid) {
+  return sheet_rows == 0u ? blocks_of(grid).y : grid.rows / grid.ny * blocks_of(grid).y;
+}
+
+bool own_block_index(Patches grid, out uint index) {
+  uint x = gl_GlobalInvocationID.x, y = gl_GlobalInvocationID.y, across = blocks_of(grid).x;
+  index = y * across + x;
+  return x < across && y < block_rows(grid);
 }
 
 // The patch that a particle is in.
@@ -36,8 +57,8 @@ uint patch_with(Patches grid, Own own) {
 }
 
 // The cell that a box's middle is in; one of its own where the grid does not cover the box.
-ivec3 cell_of_box(Cells c, real3 low, real3 high, uint patch_index) {
-  if (!covered(c, low) || !covered(c, high)) return ivec3(int(patch_index), 0x40000000, 0x40000000);
+ivec3 cell_of_box(Cells c, real3 low, real3 high, uint block_index) {
+  if (!covered(c, low) || !covered(c, high)) return ivec3(int(block_index), 0x40000000, 0x40000000);
   precise real3 middle = 0.5 * (low + high);
   precise real3 scaled = floor(middle * c.inverse_cell_1_m);
   return ivec3(scaled);

@@ -19,9 +19,9 @@ struct CellRange {
   bool whole;  // not more cells than are looked at
 };
 
-// The cells in which the middles of patches are that have a particle within `search` of the box.
+// The cells in which the middles of blocks are that have a particle within `search` of the box.
 CellRange cells_around(Cells c, real3 low, real3 high, real search) {
-  precise real far = search + 0.5009765625 * real(uintBitsToFloat(collision_state[kWidestPatch]));
+  precise real far = search + 0.5009765625 * real(uintBitsToFloat(collision_state[kWidestBlock]));
   precise real far_cells = min(far * c.inverse_cell_1_m, real(kCellsFromOriginMax));
   precise real3 low_cells = low * c.inverse_cell_1_m, high_cells = high * c.inverse_cell_1_m;
   precise real3 first = floor(low_cells - far_cells), last = floor(high_cells + far_cells);

@@ -2,6 +2,7 @@
 // the longest edge. Declaration and CPU mirror.
 #include <atomic>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "passes/folds.h"
@@ -47,6 +48,19 @@ class PatchLook {
     const Folds<T> folds(view_, patches_, position_, patch);
     box[0] = glm::vec<4, T>(low, folds.close() ? T(0) : T(1));
     box[1] = glm::vec<4, T>(high, static_cast<T>(folds.bends()));
+  }
+
+  /// Writes the box of a block, whose patches' boxes are known.
+  void look_at_block(std::uint32_t block, const std::vector<glm::vec<4, T>>& boxes, glm::vec<4, T>* box) {
+    V low(std::numeric_limits<T>::max()), high(-low);
+    patches_.each_of(patches_.patches_of(block), [&](std::uint32_t patch) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], boxes[2 * std::size_t{patch}][axis]);
+        high[axis] = std::max(high[axis], boxes[2 * std::size_t{patch} + 1][axis]);
+      }
+    });
+    box[0] = glm::vec<4, T>(low, T(0));
+    box[1] = glm::vec<4, T>(high, T(0));
     const V wide = high - low;
     if (view_.covered(box[0]) && view_.covered(box[1]))
       widest_ = std::max(widest_, bits_of(std::max(std::max(wide.x, wide.y), wide.z)));
@@ -89,28 +103,32 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   begin_lists(context.model.grid, buffers);
   const auto& position = std::as_const(buffers)[BufferId::position];
   auto& boxes = buffers[BufferId::patches];
+  auto& blocks = buffers[BufferId::blocks];
   boxes.resize(2 * std::size_t{patches.count()});
-  std::atomic<std::uint32_t> longest = 0, widest = 0;
+  blocks.resize(2 * std::size_t{patches.block_count()});
+  std::atomic<std::uint32_t> longest = 0;
   parallel_rows(patches.rows(), 2 * std::uint64_t{view.grid.nx}, [&](std::uint32_t begin, std::uint32_t end) {
     PatchLook<T> look(view, patches, position);
     for (std::uint32_t p = begin * patches.nx(); p < end * patches.nx(); ++p)
       look.look_at(p, &boxes[2 * std::size_t{p}]);
     raise_to(longest, look.longest());
-    raise_to(widest, look.widest());
   });
+  PatchLook<T> look(view, patches, position);
+  for (std::uint32_t b = 0; b < patches.block_count(); ++b)
+    look.look_at_block(b, boxes, &blocks[2 * std::size_t{b}]);
   auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kLongestEdge] = std::max(state[shared::kLongestEdge], longest.load());
-  state[shared::kWidestPatch] = std::max(state[shared::kWidestPatch], widest.load());
+  state[shared::kWidestBlock] = std::max(state[shared::kWidestBlock], look.widest());
   const PatchSearch<T> search(view, buffers);
   auto& cells = buffers.words_of(BufferId::cells);
-  for (std::uint32_t p = 0; p < patches.count(); ++p) ++cells[view.bucket_of(search.cell_of(p))];
+  for (std::uint32_t b = 0; b < patches.block_count(); ++b) ++cells[view.bucket_of(search.cell_of(b))];
 }
 
 }  // namespace
 
 const Pass cell_count = [] {
   Pass pass =
-      list_pass("cell_count", "self-collision: boxes of patches, and how many each bucket of the grid holds",
+      list_pass("cell_count", "self-collision: boxes and folds, and how many each bucket of the grid holds",
                 mirror<float>, mirror<double>, shared::kListGroups, patch_domain);
   pass.marches = true;
   return pass;

@@ -6,17 +6,17 @@
 namespace weft {
 namespace {
 
-/// From the last patch to the first, so that the slots of a bucket, counted down, ascend.
+/// From the last block to the first, so that the slots of a bucket, counted down, ascend.
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   const CollisionView<T> view(context.model);
-  const std::uint32_t count = PatchGrid(context.model.grid).count();
+  const std::uint32_t count = PatchGrid(context.model.grid).block_count();
   const PatchSearch<T> search(view, buffers);
   auto& cells = buffers.words_of(BufferId::cells);
   auto& arrivals = buffers.words_of(BufferId::cell_arrivals);
   arrivals.resize(count);
-  for (std::uint32_t p = count; p-- > 0;) arrivals[--cells[view.bucket_of(search.cell_of(p))]] = p;
+  for (std::uint32_t b = count; b-- > 0;) arrivals[--cells[view.bucket_of(search.cell_of(b))]] = b;
 }
 
 /// On the device the order within a bucket is that of arrival.
@@ -32,7 +32,7 @@ void settle_order(HostWords& buffers) {
 }  // namespace
 
 const Pass cell_fill =
-    list_pass("cell_fill", "self-collision: patches into their buckets, as they come", mirror<float>,
-              mirror<double>, shared::kListGroups, patch_domain, settle_order);
+    list_pass("cell_fill", "self-collision: blocks into their buckets, as they come", mirror<float>,
+              mirror<double>, shared::kBlockGroups, block_domain, settle_order);
 
 }  // namespace weft

@@ -19,6 +19,6 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
 }  // namespace
 
 const Pass cell_sort = list_pass("cell_sort", "self-collision: makes the fill stable", mirror<float>,
-                                 mirror<double>, shared::kListGroups, patch_domain);
+                                 mirror<double>, shared::kBlockGroups, block_domain);
 
 }  // namespace weft

@@ -50,9 +50,9 @@ double surface_search_m(const CollisionLayout& layout, double spacing_m) {
 }
 
 /// Edge of the grid's cubes: so much of what is looked for that a box and what is round it lie in few of
-/// them, and that few patches are in one. Measured: docs/effects.md.
+/// them, and that few blocks are in one. Measured: docs/effects.md.
 double grid_cell_m(const CollisionLayout& layout, double spacing_m) {
-  return 4.2 * std::max(layout.thickness_m + layout.skin_m, surface_search_m(layout, spacing_m));
+  return 7.0 * std::max(layout.thickness_m + layout.skin_m, surface_search_m(layout, spacing_m));
 }
 
 /// First row whose pairs are so far apart on the cloth that they keep the whole thickness.
@@ -128,7 +128,7 @@ CollisionLayout collision_layout(const Model& model) {
                 "{}: [self_collision] with {} x {} particles: it takes at most 8192 x 8192 (lower "
                 "cloth.resolution)",
                 model.scene.source.empty() ? "scene" : model.scene.source, model.grid.nx, model.grid.rows());
-  layout.buckets = std::bit_ceil(PatchGrid(model.grid).count());
+  layout.buckets = std::bit_ceil(PatchGrid(model.grid).block_count());
   layout.recover_1_s = kRecoverShare / look_time_s(model, layout);
   layout.capacity = list_capacity(thickness_m / a, layout.skin_m / a, model.grid.count());
   layout.pair_reach_m = kRoundingRoom * (layout.thickness_m + layout.skin_m);
@@ -216,7 +216,7 @@ Range collision_domain(const Model& model) {
 Range block_domain(const Model& model) {
   if (!model.scene.self_collision) return {};
   const PatchGrid patches(model.grid);
-  return {.x = (patches.nx() + 1) / 2, .y = (patches.ny() + 1) / 2 * (patches.rows() / patches.ny())};
+  return {.x = patches.blocks_x(), .y = patches.block_count() / patches.blocks_x()};
 }
 
 Range patch_domain(const Model& model) {

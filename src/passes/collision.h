@@ -17,10 +17,10 @@ namespace weft {
 struct CollisionLayout {
   double thickness_m;
   double skin_m;              ///< how much nearer than listed a pair may come before the lists are made anew
-  double cell_m;              ///< edge of the cubes of the grid that patches are sorted into
+  double cell_m;              ///< edge of the cubes of the grid that blocks are sorted into
   std::uint32_t limit_last;   ///< row of the limits of pairs that are far apart on the cloth
   std::uint32_t column_bits;  ///< of a place, for the column
-  std::uint32_t buckets;      ///< a power of two, at least the number of patches
+  std::uint32_t buckets;      ///< a power of two, at least the number of blocks
   std::uint32_t capacity;     ///< entries a particle's list has room for
   bool carried;               ///< nothing is pinned: the motion that all share is taken from everyone's
   double surface_limit_m;     ///< the distance that triangles and edges keep

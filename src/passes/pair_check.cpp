@@ -69,7 +69,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& state = buffers.words_of(BufferId::collision_state);
   const bool first = context.row_index == 0;
   bool stale = first;
-  state[shared::kLongestEdge] = state[shared::kWidestPatch] = 0;
+  state[shared::kLongestEdge] = state[shared::kWidestBlock] = 0;
   if (first) state[shared::kSmallestGap] = shared::kInfinity;
   if (state[shared::kListsArmed] != 0) {
     buffers[BufferId::near_position].resize(count);
@@ -97,6 +97,7 @@ const Pass pair_check{
     .mirror_f32 = mirror<float>,
     .mirror_f64 = mirror<double>,
     .marches = true,
+    .takes_texels = true,
     .interval = contact_interval,
 };
 

@@ -61,7 +61,7 @@ struct Pass {
   void (*mirror_f64)(const MirrorContext&, HostBuffers<double>&);
   bool swaps_state = false;  ///< writes position_next and velocity_next, which then become current
   bool marches = false;  ///< one invocation may take several rows: the constant after its own says how many
-  bool takes_texels = false;  ///< its shader reads vectors as texels where the kernel does
+  bool takes_texels = false;          ///< its shader reads vectors as texels where the kernel does
   const Pass* compensated = nullptr;  ///< the same with compensated summation of positions (f32k)
   const Pass* torn = nullptr;         ///< what stands in its place where links break
   const Pass* once_torn = nullptr;    ///< what runs before it there, and in its place once a link is broken

@@ -10,31 +10,6 @@
 namespace weft {
 namespace {
 
-/// Two by two patches of one cloth, both ends included; and those with the ones beside them.
-struct PatchBlock {
-  std::uint32_t x0, y0, x1, y1;
-
-  static PatchBlock at(const PatchGrid& patches, std::uint32_t x, std::uint32_t y) {
-    const std::uint32_t down = (patches.ny() + 1) / 2, top = y / down * patches.ny();
-    const std::uint32_t y0 = top + 2 * (y % down);
-    return {2 * x, y0, std::min(2 * x + 1, patches.nx() - 1), std::min(y0 + 1, top + patches.ny() - 1)};
-  }
-  PatchBlock wider(const PatchGrid& patches) const {
-    const std::uint32_t top = y0 / patches.ny() * patches.ny();
-    return {std::max(x0, 1u) - 1, std::max(y0, top + 1) - 1, std::min(x1 + 1, patches.nx() - 1),
-            std::min(y1 + 1, top + patches.ny() - 1)};
-  }
-  template <class Visit>
-  void each(const PatchGrid& patches, Visit&& visit) const {
-    for (std::uint32_t y = y0; y <= y1; ++y)
-      for (std::uint32_t x = x0; x <= x1; ++x) visit(y * patches.nx() + x);
-  }
-  bool has(const PatchGrid& patches, std::uint32_t patch) const {
-    const std::uint32_t x = patch % patches.nx(), y = patch / patches.nx();
-    return x >= x0 && x <= x1 && y >= y0 && y <= y1;
-  }
-};
-
 /// The search of the patches of one block: most have nothing near but each other and those beside the block,
 /// which one search finds out for all four.
 template <class T>
@@ -42,8 +17,8 @@ class BlockSearch {
  public:
   using V = glm::vec<3, T>;
   BlockSearch(const CollisionView<T>& view, const PatchGrid& patches, const PatchSearch<T>& search,
-              const PatchBlock& block)
-      : view_(view), patches_(patches), search_(search), region_(block.wider(patches)) {
+              std::uint32_t block)
+      : view_(view), patches_(patches), search_(search), region_(patches.patches_of(block, 2)) {
     alone_ = !overlooks() && alone(block);
   }
 
@@ -54,14 +29,16 @@ class BlockSearch {
     bool found = false;
     const auto look_at = [&](std::uint32_t other) {
       found = found || (gap(patch, other) < search_.distance() && !patches_.beside(patch, other));
-      return found;
     };
     if (alone_) {
-      region_.each(patches_, look_at);
+      patches_.each_of(region_, look_at);
       return found;
     }
-    const bool all =
-        search_.around(search_.low(patch), search_.high(patch), search_.distance(), false, look_at);
+    const auto low = search_.low(patch), high = search_.high(patch);
+    const bool all = search_.around(low, high, search_.distance(), false, [&](std::uint32_t other) {
+      if (is_near(other, low, high)) patches_.each_of(patches_.patches_of(other), look_at);
+      return found;
+    });
     return found || !all;
   }
 
@@ -75,22 +52,18 @@ class BlockSearch {
     return PatchSearch<T>::gap(search_.low(a), search_.high(a), search_.low(b), search_.high(b));
   }
 
-  /// Whether no patch but the block's and those beside it is near the box of them all.
-  bool alone(const PatchBlock& block) const {
-    V low(std::numeric_limits<T>::max()), high(-low);
-    bool covered = true;
-    block.each(patches_, [&](std::uint32_t p) {
-      covered &= is_covered(p);
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], search_.low(p)[axis]);
-        high[axis] = std::max(high[axis], search_.high(p)[axis]);
-      }
-    });
-    if (!covered) return false;
+  bool is_near(std::uint32_t block, const V& low, const V& high) const {
+    return PatchSearch<T>::gap(low, high, search_.block_low(block), search_.block_high(block)) <
+           search_.distance();
+  }
+
+  /// Whether no block but those beside it is near the block.
+  bool alone(std::uint32_t block) const {
+    const V low = search_.block_low(block), high = search_.block_high(block);
+    if (!view_.covered({low, T(0)}) || !view_.covered({high, T(0)})) return false;
     bool found = false;
     const bool all = search_.around(low, high, search_.distance(), false, [&](std::uint32_t other) {
-      found = PatchSearch<T>::gap(low, high, search_.low(other), search_.high(other)) < search_.distance() &&
-              !region_.has(patches_, other);
+      found = is_near(other, low, high) && !patches_.blocks_beside(block, other);
       return found;
     });
     return all && !found;
@@ -99,7 +72,7 @@ class BlockSearch {
   const CollisionView<T>& view_;
   const PatchGrid& patches_;
   const PatchSearch<T>& search_;
-  PatchBlock region_;
+  PatchGrid::Block region_;  // with the blocks beside it
   bool alone_;
 };
 
@@ -163,9 +136,9 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   parallel_rows(blocks.y, 4 * std::uint64_t{view.grid.nx}, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t y = begin; y < end; ++y)
       for (std::uint32_t x = 0; x < blocks.x; ++x) {
-        const PatchBlock block = PatchBlock::at(patches, x, y);
+        const std::uint32_t block = y * blocks.x + x;
         const BlockSearch<T> around(view, patches, search, block);
-        block.each(patches, [&](std::uint32_t p) {
+        patches.each_of(patches.patches_of(block), [&](std::uint32_t p) {
           const bool far = around.anything_near(p, boxes[2 * std::size_t{p}].w != T(0));
           listed[p] = (far ? shared::kLooksFar : 0u) | looks_beside(view, patches, boxes, p);
         });

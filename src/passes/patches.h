@@ -1,5 +1,6 @@
-// Patches: blocks of 2 x 2 particles of one cloth, which self-collision's grid holds. What the mirrors of the
-// passes that make lists share. Operation by operation as docs/float-form.md "Patches".
+// Patches of 2 x 2 particles of one cloth, and blocks of 2 x 2 patches, which self-collision's grid holds.
+// What the mirrors of the passes that make lists share. Operation by operation as docs/float-form.md
+// "Patches".
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,6 +34,32 @@ class PatchGrid {
             std::min(j + 1 + more, top + grid_.ny - 1)};
   }
 
+  std::uint32_t blocks_x() const { return (nx_ + 1) / 2; }
+  std::uint32_t blocks_y() const { return (ny_ + 1) / 2; }  ///< of one cloth
+  std::uint32_t block_count() const { return blocks_x() * blocks_y() * (rows() / ny_); }
+
+  /// Columns and rows of patches, both ends included: those of a block and `more` on every side, as many as
+  /// its cloth has of them.
+  Block patches_of(std::uint32_t block, std::uint32_t more = 0) const {
+    const std::uint32_t row = block / blocks_x(), top = row / blocks_y() * ny_, x = 2 * (block % blocks_x()),
+                        y = top + 2 * (row % blocks_y());
+    return {std::max(x, more) - more, std::max(y, top + more) - more, std::min(x + 1 + more, nx_ - 1),
+            std::min(y + 1 + more, top + ny_ - 1)};
+  }
+  /// Calls visit(patch) for all of those, row by row.
+  template <class Visit>
+  void each_of(const Block& patches, Visit&& visit) const {
+    for (std::uint32_t y = patches.j0; y <= patches.j1; ++y)
+      for (std::uint32_t x = patches.i0; x <= patches.i1; ++x) visit(y * nx_ + x);
+  }
+
+  /// Whether two blocks are the same or beside each other on one cloth.
+  bool blocks_beside(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t across = blocks_x();
+    return close_by(a % across, b % across) && close_by(a / across, b / across) &&
+           a / across / blocks_y() == b / across / blocks_y();
+  }
+
   std::uint32_t with(std::uint32_t particle) const {
     const std::uint32_t row = particle / grid_.nx, own = grid_.own_row(row);
     return ((row - own) / grid_.ny * ny_ + own / 2) * nx_ + particle % grid_.nx / 2;
@@ -49,11 +76,12 @@ class PatchGrid {
 
   /// Whether two patches are the same or beside each other on one cloth.
   bool beside(std::uint32_t a, std::uint32_t b) const {
-    const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
-    return near(a % nx_, b % nx_) && near(a / nx_, b / nx_) && a / nx_ / ny_ == b / nx_ / ny_;
+    return close_by(a % nx_, b % nx_) && close_by(a / nx_, b / nx_) && a / nx_ / ny_ == b / nx_ / ny_;
   }
 
  private:
+  static bool close_by(std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; }
+
   const Grid& grid_;
   std::uint32_t nx_, ny_;
 };
@@ -61,7 +89,7 @@ class PatchGrid {
 /// One invocation a patch.
 Range patch_domain(const Model& model);
 
-/// One invocation a block of 2 x 2 patches of one cloth.
+/// One invocation a block.
 Range block_domain(const Model& model);
 
 /// The eight particles round one on its cloth, row by row; nothing outside.
@@ -92,7 +120,7 @@ void each_looker(const CollisionView<T>& view, const HostWords& buffers, Visit&&
   });
 }
 
-/// What the searches read: boxes of patches in a grid, and how far to look.
+/// What the searches read: blocks in a grid, the boxes of them and of their patches, and how far to look.
 template <class T>
 class PatchSearch {
  public:
@@ -102,13 +130,14 @@ class PatchSearch {
   PatchSearch(const CollisionView<T>& view, const HostBuffers<T>& buffers)
       : view_(view),
         boxes_(buffers[BufferId::patches]),
+        blocks_(buffers[BufferId::blocks]),
         cells_(buffers.words_of(BufferId::cells)),
         members_(buffers.words_of(BufferId::cell_members)) {
     const auto& state = buffers.words_of(BufferId::collision_state);
     const auto known = [&](std::uint32_t word) { return static_cast<T>(std::bit_cast<float>(state[word])); };
     surface_squared_ = (view.surface_reach_squared + T(0.5) * known(shared::kLongestEdge)) * kRoom;
     search_ = std::max(std::sqrt(surface_squared_), view.pair_reach) * kRoom;
-    widest_ = known(shared::kWidestPatch);
+    widest_ = known(shared::kWidestBlock);
   }
 
   T surface_squared() const { return surface_squared_; }  ///< between corners of two surfaces within reach
@@ -118,12 +147,15 @@ class PatchSearch {
   V low(std::uint32_t patch) const { return V(boxes_[2 * std::size_t{patch}]); }
   V high(std::uint32_t patch) const { return V(boxes_[2 * std::size_t{patch} + 1]); }
 
-  static Cell cell_of_box(const CollisionView<T>& view, const V& low, const V& high, std::uint32_t patch) {
-    if (!view.covered({low, T(0)}) || !view.covered({high, T(0)}))
-      return {static_cast<std::int32_t>(patch), 0x40000000, 0x40000000};
-    return view.cell_of({T(0.5) * (low + high), T(0)});
+  V block_low(std::uint32_t block) const { return V(blocks_[2 * std::size_t{block}]); }
+  V block_high(std::uint32_t block) const { return V(blocks_[2 * std::size_t{block} + 1]); }
+
+  Cell cell_of(std::uint32_t block) const {
+    const V low = block_low(block), high = block_high(block);
+    if (!view_.covered({low, T(0)}) || !view_.covered({high, T(0)}))
+      return {static_cast<std::int32_t>(block), 0x40000000, 0x40000000};
+    return view_.cell_of({T(0.5) * (low + high), T(0)});
   }
-  Cell cell_of(std::uint32_t patch) const { return cell_of_box(view_, low(patch), high(patch), patch); }
 
   /// The largest gap between two boxes along an axis; less than 0 where they overlap.
   static T gap(const V& low_a, const V& high_a, const V& low_b, const V& high_b) {
@@ -133,9 +165,9 @@ class PatchSearch {
     return most;
   }
 
-  /// Calls visit(patch) for each member of the buckets of the cells in which patches' middles are that have a
+  /// Calls visit(block) for each member of the buckets of the cells in which blocks' middles are that have a
   /// particle within `search` of the box; the same may come twice. It ends when visit returns true.
-  /// @param own_cell_only  only where the bucket is asked for by the patch's own cell: none comes twice
+  /// @param own_cell_only  only where the bucket is asked for by the block's own cell: none comes twice
   /// @return whether those were all cells
   template <class Visit>
   bool around(const V& low, const V& high, T search, bool own_cell_only, Visit&& visit) const {
@@ -168,12 +200,16 @@ class PatchSearch {
   template <class Visit>
   bool particles_around(const PatchGrid& patches, std::uint32_t p, const V& x, T search,
                         Visit&& visit) const {
-    return around(x, x, search, true, [&](std::uint32_t other) {
-      if (!(gap(x, x, low(other), high(other)) < search)) return false;
-      const PatchGrid::Block block = patches.block(other);
+    const auto look_into = [&](std::uint32_t patch) {
+      if (!(gap(x, x, low(patch), high(patch)) < search)) return;
+      const PatchGrid::Block block = patches.block(patch);
       for (std::uint32_t j = block.j0; j <= block.j1; ++j)
         for (std::uint32_t i = block.i0; i <= block.i1; ++i)
           if (const std::uint32_t q = view_.grid.index(i, j); !beside(view_.grid, p, q)) visit(q);
+    };
+    return around(x, x, search, true, [&](std::uint32_t other) {
+      if (gap(x, x, block_low(other), block_high(other)) < search)
+        patches.each_of(patches.patches_of(other), look_into);
       return false;
     });
   }
@@ -182,7 +218,7 @@ class PatchSearch {
   static constexpr T kRoom = static_cast<T>(1.0009765625), kHalfRoom = static_cast<T>(0.5009765625);
 
   const CollisionView<T>& view_;
-  const std::vector<glm::vec<4, T>>& boxes_;
+  const std::vector<glm::vec<4, T>>&boxes_, &blocks_;
   const std::vector<std::uint32_t>&cells_, &members_;
   T surface_squared_, search_, widest_;
 };

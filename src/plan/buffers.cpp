@@ -38,8 +38,9 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
       return std::uint64_t{collision_layout(model).surface_capacity} * model.grid.count();
     case BufferId::carrier: return shared::kCarrierRows;
     case BufferId::patches: return 2 * patch_domain(model).items();
+    case BufferId::blocks: return 2 * block_domain(model).items();
     case BufferId::cell_arrivals:
-    case BufferId::cell_members:
+    case BufferId::cell_members: return block_domain(model).items();
     case BufferId::patch_listed: return patch_domain(model).items();
     case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
     case BufferId::watch_state: return shared::kWatchStateWords;
@@ -74,19 +75,19 @@ std::span<const BufferId> collision_buffers_of(const Pass& pass) {
                                             surface_bound,   carrier};
   static constexpr std::array kCellCount = {params,         position, collision,  collision_state,
                                             built_position, cells,    pair_count, surface_count,
-                                            surface_bound,  patches};
+                                            surface_bound,  patches,  blocks};
   static constexpr std::array kCellScan = {collision, collision_state, cells};
-  static constexpr std::array kCellFill = {params, collision, collision_state, cells, cell_arrivals, patches};
+  static constexpr std::array kCellFill = {params, collision, collision_state, cells, cell_arrivals, blocks};
   static constexpr std::array kCellSort = {params,        collision,    collision_state, cells,
-                                           cell_arrivals, cell_members, patches};
-  static constexpr std::array kPatchNear = {params,       collision, collision_state, cells,
-                                            cell_members, patches,   patch_listed,    lookers};
+                                           cell_arrivals, cell_members, blocks};
+  static constexpr std::array kPatchNear = {params,  collision,    collision_state, cells, cell_members,
+                                            patches, patch_listed, lookers,         blocks};
   static constexpr std::array kPairGather = {params,  position,     collision,  collision_state,
                                              cells,   cell_members, pair_count, pair_places,
-                                             patches, patch_listed, lookers};
+                                             patches, patch_listed, lookers,    blocks};
   static constexpr std::array kSurfaceGather = {params,  position,     collision,     collision_state,
                                                 cells,   cell_members, surface_count, surface_pairs,
-                                                patches, patch_listed, lookers};
+                                                patches, patch_listed, lookers,       blocks};
   static constexpr std::array kTouchCount = {params,          position,      velocity,      collision,
                                              collision_state, pair_count,    pair_places,   touch_weight,
                                              near_position,   near_velocity, surface_bound, surface_sums};

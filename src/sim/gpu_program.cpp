@@ -41,7 +41,9 @@ VkBufferUsageFlags usage_of(BufferId id) {
     case BufferId::position:
     case BufferId::position_next:
       return kStorage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    case BufferId::built_position:
     case BufferId::patches:
+    case BufferId::blocks:
     case BufferId::velocity:
     case BufferId::velocity_next: return kStorage | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     case BufferId::draw_position:
