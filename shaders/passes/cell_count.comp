@@ -4,10 +4,10 @@
 #include "../shared/pass.glsl"
 
 // First third of the counting sort: the box of each patch and each block, and how many blocks each bucket of
-// the grid holds. And the longest edge and the widest block, by which the searches know how far to look; and where the
-// cloth is spread out and where it bends. Counts are integers added atomically: their sums do not depend
-// on the order, nor do the greatest. Source: Green 2008, Particle simulation using CUDA, "Building the grid
-// using atomic operations".
+// the grid holds. And the longest edge and the widest block, by which the searches know how far to look; and
+// where the cloth is spread out and where it bends. Begins the lists. Counts are integers added atomically:
+// their sums do not depend on the order, nor do the greatest. Source: Green 2008, Particle simulation using
+// CUDA, "Building the grid using atomic operations".
 
 #include "../shared/cells.glsl"
 #include "../shared/dot.glsl"
@@ -22,7 +22,7 @@ WRITES(uint, surface_bound)
 UPDATES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
-layout(constant_id = 0) const uint rows = 1u;  // of patches that an invocation marches down; the device's choice
+layout(constant_id = 0) const uint rows = 1u;  // of patches that an invocation marches down
 
 #include "../shared/surface.glsl"
 #include "../shared/patches.glsl"

@@ -25,7 +25,7 @@ WRITES(uint, cells)
 
 layout(local_size_x = kCollisionGroup) in;
 layout(push_constant) uniform Push { uint row_index, item; };
-layout(constant_id = 0) const uint rows = 1u;  // that an invocation marches down, at most 32; the device's choice
+layout(constant_id = 0) const uint rows = 1u;  // that an invocation marches down, at most 32
 
 // Puts x back to within `most` of where the lists or contacts know it, and its velocity to as much of what it
 // was. `gone` is how far it is from there.

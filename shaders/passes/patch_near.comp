@@ -181,7 +181,8 @@ void tell_lookers(Cells c, OwnPatch own, uint looks) {
   if (own.low.y == own.last.y) who &= 3u;
   if (who == 0u) return;
   uint count = uint(bitCount(who)), slot = atomicAdd(collision_state[kLookers], count);
-  atomicMax(collision_state[kNearGroups], min((slot + count + kCollisionGroup - 1u) / kCollisionGroup, kLookGroupsMax));
+  uint groups = (slot + count + kCollisionGroup - 1u) / kCollisionGroup;
+  atomicMax(collision_state[kNearGroups], min(groups, kLookGroupsMax));
   for (; who != 0u; who &= who - 1u) {
     uint k = uint(findLSB(who));
     lookers[slot] = (own.first_row + own.low.y + k / 2u) << c.column_bits | (own.low.x + k % 2u);

@@ -1,5 +1,5 @@
-// The boxes of blocks, for passes that declare READS_VECTORS(blocks). The including pass includes patches.glsl
-// first.
+// The boxes of blocks, for passes that declare READS_VECTORS(blocks). The including pass includes
+// patches.glsl first.
 
 real3 block_low(uint block_index) { return load_blocks(2u * block_index).xyz; }
 real3 block_high(uint block_index) { return load_blocks(2u * block_index + 1u).xyz; }

@@ -25,7 +25,7 @@
   ROW(collision, 17, Collision, "self-collision: limits, grid and room (collision.h)")                 \
   ROW(collision_state, 18, uint, "whether the pair lists are stale; counts (collision.h)")             \
   ROW(built_position, 19, real4, "m, when the pair lists were made; w unused")                         \
-  ROW(cells, 20, uint, "grid: blocks counted, then ends, then starts of buckets, and total")          \
+  ROW(cells, 20, uint, "grid: blocks counted, then ends, then starts of buckets, and total")           \
   ROW(cell_arrivals, 21, uint, "blocks bucket by bucket, as they came")                                \
   ROW(cell_members, 22, uint, "blocks bucket by bucket, ascending")                                    \
   ROW(pair_count, 23, uint, "entries of a particle's list")                                            \

@@ -2,7 +2,7 @@
 // docs/float-form.md "Folds". The including pass declares `position` and includes cells.glsl, dot.glsl,
 // surface.glsl and patches.glsl first. Loops are unrolled, so that `around` can lie in registers.
 
-// The particles of a patch and two more on every side, row by row; beyond the cloth's ends its last one again.
+// The particles of a patch and two more on every side, row by row; beyond the cloth's ends its last again.
 const int kAcross = 6;
 real3 around[kAcross * kAcross];
 uint column_of[kAcross];  // that is read for each column: on the cloth
@@ -25,7 +25,8 @@ void choose_columns(OwnPatch own) {
 void load_rows(Cells c, OwnPatch own, const int from) {
   [[unroll]] for (int j = from; j < kAcross; ++j) {
     uint first = (own.first_row + uint(clamp(int(own.low.y) + j - 2, 0, int(own.last.y)))) * c.nx;
-    [[unroll]] for (int i = 0; i < kAcross; ++i) around[j * kAcross + i] = load_position(first + column_of[i]).xyz;
+    [[unroll]] for (int i = 0; i < kAcross; ++i)
+      around[j * kAcross + i] = load_position(first + column_of[i]).xyz;
   }
   [[unroll]] for (int j = 0; j < kAcross; ++j) {
     int row = int(own.low.y) + j - 2;

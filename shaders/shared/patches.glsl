@@ -1,6 +1,6 @@
-// Patches of 2 x 2 particles of one cloth, and blocks of 2 x 2 patches. Blocks are what the grid holds, and only
-// the particles of patches that have another near look for more than their neighbours. docs/float-form.md
-// "Patches". The including pass includes cells.glsl first.
+// Patches of 2 x 2 particles of one cloth, and blocks of 2 x 2 patches. Blocks are what the grid holds, and
+// only the particles of patches that have another near look for more than their neighbours.
+// docs/float-form.md "Patches". The including pass includes cells.glsl first.
 
 struct Patches {
   uint nx, ny, rows;  // of one cloth; of all

@@ -52,9 +52,9 @@ std::vector<std::string> fitting_kernel_names(const gpu::Device&, const Plan&);
 /// The kernel that needs nothing of the device.
 Kernel direct_kernel(const gpu::Device&, const Plan&);
 
-/// Rows that an invocation of a marching pass over so many takes: marching saves loads and coefficients, which
-/// is what a software device's time goes to, and keeps at least about 16 rows of workgroups for its threads. A
-/// GPU needs the invocations.
+/// Rows that an invocation of a marching pass over so many takes: marching saves loads and coefficients,
+/// which is what a software device's time goes to, and keeps at least about 16 rows of workgroups for its
+/// threads. A GPU needs the invocations.
 std::uint32_t march_rows(const gpu::Device&, std::uint32_t rows);
 
 /// What runs where nothing is asked for and no trial was made: on a software device `texel`, which its driver
