@@ -64,6 +64,7 @@ Means means_of(const Pass& pass) {
                                      &xpbd_predict, &xpbd_pins,      &xpbd_spring,
                                      &xpbd_bend,    &xpbd_tethers,   &xpbd_finish};
   if (std::ranges::count(kSwept, &pass) > 0) return Means::sweep;
+  if (SelfCollision::has(pass)) return Means::look;
   return Effects::has(pass) ? Means::effect : Means::mirror;
 }
 
@@ -88,12 +89,14 @@ void Engine::adopt(const Model& model, const Plan& plan) {
   bands_.clear();
   xpbd_.reset();
   effects_.reset();
+  self_collision_.reset();
   cloth_ = cloth_for(model, plan);
   furnish(model, plan);
 }
 
 void Engine::furnish(const Model& model, const Plan& plan) {
   effects_ = std::make_unique<Effects>(cloth_, kernels_, model);
+  if (model.scene.self_collision) self_collision_ = std::make_unique<SelfCollision>(cloth_, kernels_, model);
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
@@ -103,6 +106,7 @@ void Engine::furnish(const Model& model, const Plan& plan) {
 std::uint64_t Engine::bytes() const {
   std::uint64_t bytes = cloth_.bytes();
   if (xpbd_) bytes += xpbd_->bytes();
+  if (self_collision_) bytes += self_collision_->bytes();
   if (half_velocity_) bytes += cloth_.ny() * 3 * cloth_.sheet().stride * sizeof(float);
   return bytes;
 }
@@ -145,6 +149,10 @@ void Engine::load(const HostBuffers<float>& buffers) {
 
 void Engine::run(const PlanStep& step, const Kick& kick) {
   if (effects_->run(step, kick, crew(choice_.best()), choice_.best()) && xpbd_) xpbd_->take_masses();
+}
+
+void Engine::look(const Pass& pass, HostBuffers<float>& buffers) {
+  self_collision_->run(pass, buffers, crew(choice_.best()), choice_.best());
 }
 
 RowThreads& Engine::threads_for_mirrors() { return crew_rows_.emplace(crew(choice_.best()), choice_.best()); }

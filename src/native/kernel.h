@@ -159,6 +159,27 @@ struct Tear {
   std::uint32_t* broken_links;            ///< by particle
 };
 
+/// Rows [first, last) of patches of a cloth of nx × ny: boxes, bends and buckets, as docs/float-form.md
+/// "Patches" and "Folds".
+struct PatchLook {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;                   ///< by row of the cloth
+  float inverse_cell, cells_most;             ///< of the grid [1/m], and how many of its cells are covered
+  float search_squared, flat_min;             ///< [m², m]
+  std::uint32_t bucket_mask, uncovered_cell;  ///< what stands for y and z of the cell of a box outside
+  float* scratch;                             ///< patch_look_floats(nx) of them
+  float* boxes;                               ///< two vec4 a patch; all but what left_over says of creases
+  std::uint32_t* buckets;                     ///< by patch
+  std::uint32_t* left_over;                   ///< room for the cells of these rows: 4·patch + k
+  std::uint32_t longest, widest;  ///< results: bits of the longest edge squared, and of the widest side
+};
+/// Floats that PatchLook::scratch has room for.
+constexpr std::size_t patch_look_floats(std::size_t nx) {
+  const std::size_t columns = (nx + kColumns - 1) / kColumns * kColumns + 2 * kColumns;
+  const std::size_t patches = (nx / 2 + kColumns) / kColumns * kColumns + 2 * kColumns;
+  return 6 * 3 * columns + 2 * columns + (4 * 2 * 3 + 7) * patches;
+}
+
 /// Which variant of the sweep: what is absent costs nothing.
 enum SweepEffect : std::uint32_t { kDamping = 1, kShear = 2, kTwoApart = 4, kAir = 8, kContact = 16 };
 inline constexpr std::uint32_t kSweepVariants = 32;
@@ -172,6 +193,7 @@ struct Kernels {
   void (*air_kick)(const AirKick&);
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
+  std::size_t (*look_at_patches)(PatchLook&);      ///< returns how many cells it left over
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with

@@ -75,6 +75,12 @@ class Folds {
     return bits;
   }
 
+  /// Whether the diagonal of the patch's k-th cell, or a triangle at it, is in reach of the cell's other two
+  /// corners or the edges that leave them: what decides where no planes part them.
+  bool diagonal_in_reach(std::uint32_t k) const {
+    return diagonal_in_reach(Place{2 + static_cast<int>(k % 2), 2 + static_cast<int>(k / 2)});
+  }
+
  private:
   using Place = std::array<int, 2>;  // column and row, the patch's first particle at (2, 2)
   static constexpr int kAcross = 6;

@@ -3,9 +3,11 @@
 #include "sim/native_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "native/engine.h"
+#include "passes/collision.h"
 #include "passes/passes.h"
 #include "sim/cpu_simulation.h"
 
@@ -58,6 +60,8 @@ class NativeSimulation final : public CpuSimulation<float> {
         if (!std::exchange(swept, true)) sweep(block, substep, 1);
       } else if (native::means_of(*step.pass) == native::Means::effect) {
         run_effect(step, substep);
+      } else if (native::means_of(*step.pass) == native::Means::look) {
+        run_look(step);
       } else if (step.pass == &normals) {
         const Clock::time_point began = Clock::now();
         need_rows();
@@ -96,12 +100,30 @@ class NativeSimulation final : public CpuSimulation<float> {
     this->count(step, 1, ms_since(began));
   }
 
+  void run_look(const PlanStep& step) {
+    const Clock::time_point began = Clock::now();
+    if (step.pass == &pair_check || lists_in_making(buffers_)) {
+      need_rows();
+      need_buffers();
+      engine_.look(*step.pass, buffers_);
+    }
+    this->count(step, 1, ms_since(began));
+  }
+
   void run_mirror(const PlanStep& step, std::uint32_t substep) {
     need_buffers();
     const RowThreadsInUse threads(engine_.threads_for_mirrors());
     run_step(step, substep);
     const bool moves = step.block == Block::substep || step.pass->swaps_state || step.pass == &pair_check;
-    if (moves) rows_current_ = false;  // what else ends a frame only looks at it
+    if (moves && !only_lists(*step.pass)) rows_current_ = false;  // what else ends a frame only looks at it
+  }
+
+  /// Whether a pass of self-collision makes lists or weighs contacts and moves nobody.
+  static bool only_lists(const Pass& pass) {
+    static constexpr std::array kOnlyLists{&carry,        &cell_count,   &cell_scan,   &cell_fill,
+                                           &cell_sort,    &patch_near,   &pair_gather, &surface_gather,
+                                           &touch_weight, &surface_touch};
+    return std::ranges::count(kOnlyLists, &pass) > 0;
   }
 
   void model_changed() override {

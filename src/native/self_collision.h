@@ -1,0 +1,35 @@
+// The passes of self-collision that have vector code: they read the cloth's rows and write its buffers.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "native/cloth.h"
+#include "native/crew.h"
+#include "passes/collision.h"
+
+namespace weft::native {
+
+class SelfCollision {
+ public:
+  /// @param model  with [self_collision]; it and the cloth outlive this
+  SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model);
+
+  /// Whether the pass runs here.
+  static bool has(const Pass& pass);
+  /// One dispatch of such a pass, in that many of the crew's threads. Rows and buffers hold the same state.
+  void run(const Pass& pass, HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  std::uint64_t bytes() const;
+
+ private:
+  void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  void look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const;
+
+  Cloth& cloth_;
+  const Kernels& kernels_;
+  CollisionView<float> view_;
+  std::vector<const float*> rows_;  ///< by row of the cloth
+  std::vector<float> scratch_;      ///< of each thread
+  std::vector<std::uint32_t> buckets_, left_over_;
+};
+
+}  // namespace weft::native

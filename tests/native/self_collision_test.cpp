@@ -1,0 +1,190 @@
+// The vector code of self-collision's passes leaves the buffers as the mirrors do, bit by bit: at every width
+// that this machine has, in any number of threads, on cloths of odd sizes in every shape.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "model/measures.h"
+#include "native/engine.h"
+#include "native/features.h"
+#include "passes/passes.h"
+#include "passes/tables.h"
+#include "scene/reader.h"
+#include "solvers/solver.h"
+
+namespace weft {
+namespace {
+
+constexpr KickDrift kNoTime;
+
+Model sheet_model(int columns, int rows, double thickness_cells, const std::string& more = "") {
+  return build_model(
+      parse_scene(fmt::format("[cloth]\nwidth = {}\nheight = {}\nresolution = {}\n{}"
+                              "[self_collision]\nthickness = {}\n",
+                              0.1 * (columns - 1), 0.1 * (rows - 1), columns, more, 0.1 * thickness_cells),
+                  "sheet.toml")
+          .scene);
+}
+
+/// A shape of a cloth whose cells are 0.1 m: moves the particles of its start.
+struct Shape {
+  std::string name;
+  std::function<void(const Model&, std::mt19937_64&, std::vector<glm::dvec3>&)> apply;
+};
+
+void add_noise(double noise_m, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+  std::normal_distribution<double> normal(0.0, noise_m);
+  for (glm::dvec3& at : x) at += glm::dvec3(normal(random), normal(random), normal(random));
+}
+
+/// Rolled up along i by `turn` [rad] a cell, with noise.
+Shape rolled(double turn, double noise_cells) {
+  return {fmt::format("rolled by {}, noise {}", turn, noise_cells),
+          [=](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double a = model.grid.spacing_m;
+            for (std::uint32_t j = 0; j < model.grid.ny; ++j) {
+              double across = 0, up = 0;
+              for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
+                glm::dvec3& at = x[model.grid.index(i, j)];
+                at = {across, at.y, at.z + up};
+                across += a * (std::cos(turn * i) + 0.1);
+                up += a * std::sin(turn * i);
+              }
+            }
+            add_noise(noise_cells * a, random, x);
+          }};
+}
+
+/// Creased along the cells' diagonals, alternately up and down, as sharp as a line of cells allows.
+Shape creased(double depth_cells, double noise_cells) {
+  return {fmt::format("creased by {}, noise {}", depth_cells, noise_cells),
+          [=](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double a = model.grid.spacing_m;
+            for (std::uint32_t p = 0; p < x.size(); ++p) {
+              const std::uint32_t line = p % model.grid.nx + p / model.grid.nx;
+              x[p].y += depth_cells * a * (line % 2);
+              x[p].x *= 0.7, x[p].z *= 0.7;
+            }
+            add_noise(noise_cells * a, random, x);
+          }};
+}
+
+Shape scattered() {
+  return {"scattered", [](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            std::uniform_real_distribution<double> any(-2.0 * model.grid.spacing_m,
+                                                       2.0 * model.grid.spacing_m);
+            for (glm::dvec3& at : x) at = {any(random), any(random), any(random)};
+          }};
+}
+
+/// Some of its coordinates are no numbers, infinite or beyond every cell of the grid.
+Shape unsound() {
+  return {"unsound", [](const Model&, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e9, -1e9, 3e38, 1e20};
+            std::uniform_int_distribution<std::size_t> which(0, 6), axis(0, 2), place(0, x.size() - 1);
+            for (std::size_t k = 0; k < 1 + x.size() / 40; ++k)
+              x[place(random)][static_cast<int>(axis(random))] = bad[which(random)];
+          }};
+}
+
+std::vector<Shape> shapes() {
+  return {rolled(0.0, 0.0),  rolled(0.0, 0.05),  rolled(0.2, 0.02), rolled(0.6, 0.08), rolled(2.2, 0.25),
+          creased(0.6, 0.0), creased(1.2, 0.05), scattered(),       unsound()};
+}
+
+/// The buffers as they are before the lists are made: what moves nobody has run.
+HostBuffers<float> buffers_of(const Model& model, const Plan& plan, const Shape& shape, std::uint64_t seed) {
+  State state = start_state(model);
+  std::mt19937_64 random(seed);
+  shape.apply(model, random, state.position);
+  HostBuffers<float> buffers;
+  size_buffers(plan, model, buffers);
+  load_state(model, state, buffers);
+  return buffers;
+}
+
+void run_mirror(const Pass& pass, const Model& model, HostBuffers<float>& buffers) {
+  const Constants constants = pass.constants(model);
+  pass.mirror_f32({.model = model, .constants = constants, .row = kNoTime}, buffers);
+}
+
+/// Which of several things that are no number a distance is, nobody says.
+std::uint32_t settled(std::uint32_t bits) {
+  const float value = std::bit_cast<float>(bits);
+  return std::isnan(value) ? std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN()) : bits;
+}
+
+void expect_same_buffers(HostBuffers<float> got, HostBuffers<float> expected) {
+  for (HostBuffers<float>* buffers : {&got, &expected}) {
+    auto& state = buffers->words_of(BufferId::collision_state);
+    state[shared::kLongestEdge] = settled(state[shared::kLongestEdge]);
+  }
+  for (const BufferRow& row : kBufferRows) {
+    const auto &words = got.words_of(row.id), &right_words = expected.words_of(row.id);
+    ASSERT_EQ(words.size(), right_words.size()) << row.name;
+    for (std::size_t k = 0; k < words.size(); ++k)
+      ASSERT_EQ(words[k], right_words[k]) << row.name << " " << k;
+    const auto &vectors = got[row.id], &right_vectors = expected[row.id];
+    ASSERT_EQ(vectors.size(), right_vectors.size()) << row.name;
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      for (int axis = 0; axis < 4; ++axis)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(vectors[k][axis]),
+                  std::bit_cast<std::uint32_t>(right_vectors[k][axis]))
+            << row.name << " " << k << " " << axis;
+  }
+}
+
+/// Runs visit for every width, in one thread, and for the widest in several.
+void at_every_width(const std::function<void(const native::EngineOptions&)>& visit) {
+  for (const native::Kernels* kernels : native::kernels_here()) {
+    SCOPED_TRACE(kernels->name);
+    visit({.threads = 1, .vector = kernels->name});
+  }
+  for (const std::uint32_t threads : {2u, 3u}) {
+    SCOPED_TRACE(fmt::format("{} threads", threads));
+    visit({.threads = threads, .vector = {}});
+  }
+}
+
+struct Size {
+  int columns, rows;
+};
+constexpr Size kSizes[] = {{2, 2}, {3, 2}, {5, 7}, {16, 33}, {17, 18}, {33, 37}, {64, 49}};
+
+TEST(NativeSelfCollision, CountsCellsAsTheMirror) {
+  std::uint64_t seed = 0;
+  std::size_t bends = 0, close = 0;
+  for (const auto [columns, rows] : kSizes) {
+    const Model model = sheet_model(columns, rows, seed % 2 == 0 ? 0.3 : 0.9);
+    const Plan plan = compile_plan(model, find_solver("leapfrog"));
+    for (const Shape& shape : shapes()) {
+      SCOPED_TRACE(fmt::format("{} x {}, {}", columns, rows, shape.name));
+      HostBuffers<float> before = buffers_of(model, plan, shape, ++seed);
+      for (const Pass* pass : {&carry, &pair_check}) run_mirror(*pass, model, before);
+      HostBuffers<float> expected = before;
+      run_mirror(cell_count, model, expected);
+      at_every_width([&](const native::EngineOptions& options) {
+        HostBuffers<float> got = before;
+        native::Engine engine(model, plan, options);
+        engine.load(got);
+        engine.look(cell_count, got);
+        expect_same_buffers(got, expected);
+      });
+      const auto& boxes = expected[BufferId::patches];
+      for (std::size_t p = 0; p < boxes.size(); p += 2) {
+        bends += boxes[p + 1].w != 0.0f;
+        close += boxes[p].w == 0.0f;
+      }
+    }
+  }
+  EXPECT_GT(bends, 1000u);  // of some 13000 patches
+  EXPECT_GT(close, 1000u);
+}
+
+}  // namespace
+}  // namespace weft
