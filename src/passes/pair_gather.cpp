@@ -1,4 +1,5 @@
 // pair_gather: the pairs that may touch before the lists are made anew. Declaration and CPU mirror.
+#include <algorithm>
 #include <atomic>
 #include <utility>
 
@@ -24,8 +25,7 @@ std::uint32_t gather(const CollisionView<T>& view, const PatchGrid& patches, con
       places[std::size_t{found} * position.size() + particle] = view.place_of(other);
     ++found;
   };
-  if (view.covered(position[particle]) &&
-      (buffers.words_of(BufferId::patch_listed)[patches.with(particle)] & shared::kLooksFar) != 0)
+  if (view.covered(position[particle]))
     search.particles_around(patches, particle, place_in(position, particle), view.pair_reach, add);
   const std::uint32_t kept = std::min(found, view.layout.capacity);
   buffers.words_of(BufferId::pair_count)[particle] = kept;
@@ -43,9 +43,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const PatchGrid patches(grid);
   const PatchSearch<T> search(view, buffers);
   std::atomic<std::uint32_t> dropped = 0;
-  parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p)
-      dropped += gather(view, patches, search, p, buffers);
+  const auto& asked = buffers.words_of(BufferId::patch_listed);
+  std::ranges::fill(buffers.words_of(BufferId::pair_count), 0u);
+  parallel_rows(patches.rows(), 2 * std::uint64_t{grid.nx}, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t patch = begin * patches.nx(); patch < end * patches.nx(); ++patch)
+      if ((asked[patch] & shared::kLooksFar) != 0)
+        patches.each_particle(patch,
+                              [&](std::uint32_t p) { dropped += gather(view, patches, search, p, buffers); });
   });
   buffers.words_of(BufferId::collision_state)[shared::kPairsDropped] += dropped;
   if (std::ranges::any_of(buffers.words_of(BufferId::pair_count), [](auto n) { return n > 0; }))

@@ -32,6 +32,14 @@ class PatchGrid {
             std::min(j + 1 + more, top + grid_.ny - 1)};
   }
 
+  /// Calls visit(particle) for those of the patch, row by row.
+  template <class Visit>
+  void each_particle(std::uint32_t patch, Visit&& visit) const {
+    const Block own = block(patch);
+    for (std::uint32_t j = own.j0; j <= own.j1; ++j)
+      for (std::uint32_t i = own.i0; i <= own.i1; ++i) visit(grid_.index(i, j));
+  }
+
   std::uint32_t with(std::uint32_t particle) const {
     const std::uint32_t row = particle / grid_.nx, own = grid_.own_row(row);
     return ((row - own) / grid_.ny * ny_ + own / 2) * nx_ + particle % grid_.nx / 2;
