@@ -180,6 +180,29 @@ constexpr std::size_t patch_look_floats(std::size_t nx) {
   return 6 * 3 * columns + 2 * columns + (4 * 2 * 3 + 7) * patches;
 }
 
+/// Sixteen boxes of the tree of patches: four by four patches of a leaf, or four by four nodes of the level
+/// below, row by row. What is near nothing has its low corner above the high one, both infinite.
+struct alignas(64) NearNode {
+  float low[3][kColumns], high[3][kColumns];
+};
+struct NearLevel {
+  NearNode* nodes;  ///< row by row
+  std::size_t across, down;
+};
+inline constexpr std::size_t kNearLevels = 8;
+
+/// Rows [first, last) of leaves of nx × ny patches: which patches have others near.
+struct NearLook {
+  std::size_t nx, ny, first, last;
+  const float* boxes;                                   ///< two vec4 a patch
+  float inverse_cell, cells_most, far_cells, distance;  ///< cells that a search goes beyond a box; [m]
+  int cells_across;                                     ///< as many of the grid along an axis are looked at
+  std::uint32_t overlooks, looks_far;  ///< whether nothing can be passed over; the bit to set
+  NearLevel levels[kNearLevels];
+  std::size_t level_count;
+  std::uint32_t* listed;  ///< by patch
+};
+
 /// Which variant of the sweep: what is absent costs nothing.
 enum SweepEffect : std::uint32_t { kDamping = 1, kShear = 2, kTwoApart = 4, kAir = 8, kContact = 16 };
 inline constexpr std::uint32_t kSweepVariants = 32;
@@ -194,6 +217,9 @@ struct Kernels {
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
   std::size_t (*look_at_patches)(PatchLook&);      ///< returns how many cells it left over
+  void (*make_near_leaves)(const NearLook&);
+  void (*make_near_levels)(const NearLook&);  ///< once all leaves are made
+  void (*look_near)(const NearLook&);
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with

@@ -51,6 +51,7 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 #include "native/air_text.h"
 #include "native/contact_text.h"
 #include "native/fold_text.h"
+#include "native/near_text.h"
 #include "native/patch_text.h"
 #include "native/solid_text.h"
 #include "native/surface_text.h"
@@ -288,6 +289,9 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           touch_solids,
           tear,
           look_at_patches,
+          make_near_leaves,
+          make_near_levels,
+          look_near,
           xpbd_predict,
           xpbd_finish,
           {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,

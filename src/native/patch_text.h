@@ -77,11 +77,7 @@ WEFT_INLINE Mask covered(const PatchLook& look, Vec3 x) {
 WEFT_INLINE Bits bucket_of(const PatchLook& look, const VecBox& box, Mask inside, int first_patch) {
   const Vec3 middle = splat(0.5f) * (box.low + box.high);
   const Vec inverse = splat(look.inverse_cell);
-  const auto cell = [&](Vec v) {
-    const Vec at = select(inside, v * inverse, Vec{});
-    const Mask cut = __builtin_convertvector(at, Mask);
-    return cut + (__builtin_convertvector(cut, Vec) > at);
-  };
+  const auto cell = [&](Vec v) { return floored(select(inside, v * inverse, Vec{})); };
   const Mask outside = Mask{} + static_cast<int>(look.uncovered_cell);
   const Mask x = inside ? cell(middle.x) : lanes_from(first_patch);
   const Mask y = inside ? cell(middle.y) : outside, z = inside ? cell(middle.z) : outside;

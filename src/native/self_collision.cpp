@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "passes/folds.h"
 #include "passes/passes.h"
@@ -12,7 +13,7 @@
 namespace weft::native {
 namespace {
 
-constexpr std::array kLooking{&cell_count};
+constexpr std::array kLooking{&cell_count, &patch_near};
 constexpr std::uint32_t kUncoveredCell = 0x40000000;  // as PatchSearch::cell_of_box
 
 }  // namespace
@@ -24,16 +25,33 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
       buckets_(PatchGrid(model.grid).count()),
       left_over_(4 * buckets_.size()) {
   for (std::size_t j = 0; j < cloth.ny(); ++j) rows_.push_back(cloth.row(j));
+  make_room_for_tree();
+}
+
+void SelfCollision::make_room_for_tree() {
+  const PatchGrid patches(view_.grid);
+  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}));
+  std::size_t across = patches.nx(), down = patches.ny(), count = 0;
+  do {
+    across = (across + 3) / 4, down = (down + 3) / 4;
+    levels_.push_back({.nodes = nullptr, .across = across, .down = down});
+    count += across * down;
+  } while (across * down > 1);
+  nodes_.resize(count);
+  NearNode* place = nodes_.data();
+  for (NearLevel& level : levels_) level.nodes = std::exchange(place, place + level.across * level.down);
 }
 
 std::uint64_t SelfCollision::bytes() const {
-  return scratch_.size() * sizeof(float) + (buckets_.size() + left_over_.size()) * sizeof(std::uint32_t);
+  return scratch_.size() * sizeof(float) + (buckets_.size() + left_over_.size()) * sizeof(std::uint32_t) +
+         nodes_.size() * sizeof(NearNode) + bends_.size();
 }
 
 bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
 
 void SelfCollision::run(const Pass& pass, HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   if (&pass == &cell_count && lists_stale(buffers)) count_cells(buffers, crew, threads);
+  if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
 }
 
 void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
@@ -83,6 +101,69 @@ void SelfCollision::look_closely(std::span<const std::uint32_t> cells, HostBuffe
       creased = creased || folds.diagonal_in_reach(*cell % 4);
     if (creased) buffers[BufferId::patches][2 * std::size_t{patch} + 1].w += float{shared::kCreased};
   }
+}
+
+void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+  const PatchGrid patches(view_.grid);
+  const std::size_t nx = patches.nx(), ny = patches.ny(), leaf_rows = levels_[0].down;
+  const auto& boxes = buffers[BufferId::patches];
+  auto& listed = buffers.words_of(BufferId::patch_listed);
+  listed.resize(patches.count());
+  const PatchSearch<float> search(view_, buffers);
+  NearLook all{.nx = nx,
+               .ny = ny,
+               .boxes = &boxes[0].x,
+               .inverse_cell = view_.inverse_cell,
+               .cells_most = shared::kCellsFromOriginMax,
+               .far_cells = search.cells_beyond(search.distance()),
+               .distance = search.distance(),
+               .cells_across = shared::kCellsAcrossMax,
+               .overlooks = search.distance() <= view_.patch_search ? 0u : 1u,
+               .looks_far = shared::kLooksFar,
+               .level_count = levels_.size(),
+               .listed = listed.data()};
+  std::ranges::copy(levels_, all.levels);
+  const auto part_of = [&](std::uint32_t own) {
+    NearLook part = all;
+    part.first = own * leaf_rows / threads;
+    part.last = (own + std::size_t{1}) * leaf_rows / threads;
+    return part;
+  };
+  crew.run(threads, [&](std::uint32_t own) {
+    const NearLook part = part_of(own);
+    kernels_.make_near_leaves(part);
+    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+      for (std::size_t x = 0; x < nx; ++x)
+        bends_[(y + 1) * (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (y * nx + x) + 1].w);
+  });
+  kernels_.make_near_levels(all);
+  crew.run(threads, [&](std::uint32_t own) {
+    const NearLook part = part_of(own);
+    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+      for (std::size_t x = 0; x < nx; ++x) listed[y * nx + x] = looks_beside(x, y);
+    kernels_.look_near(part);
+  });
+}
+
+/// The bits of the particles that are at a folded cell; of all of them where a diagonal nearby is creased.
+std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y) const {
+  const std::size_t across = (view_.grid.nx + std::size_t{1}) / 2 + 2;
+  const std::uint8_t *const above = bends_.data() + y * across + x, *const own = above + across,
+                            *const below = own + across;
+  const auto together = [](const std::uint8_t* row) { return std::uint32_t(row[0] | row[1] | row[2]); };
+  const std::uint32_t round = together(above) | together(own) | together(below);
+  if (round == 0) return 0;
+  if ((round & shared::kCreased) != 0) return shared::kCreaseBeside | 15u * shared::kLooksBeside;
+  // A patch's cells are numbered row by row; each particle is at four, of its own patch and those before it.
+  const std::uint32_t here = own[1], left = own[0], up = above[1], corner = above[0];
+  const std::uint32_t first = (here & 1u) | (left & 2u) | (up & 4u) | (corner & 8u);
+  const std::uint32_t right = (here & 3u) | (up & 12u), down = (here & 5u) | (left & 10u), last = here & 15u;
+  const bool has_right = 2 * x + 1 < view_.grid.nx, has_down = 2 * y + 1 < view_.grid.ny;
+  const auto bit = [](std::uint32_t folded, std::uint32_t k) {
+    return folded != 0 ? shared::kLooksBeside << k : 0u;
+  };
+  return bit(first, 0) | (has_right ? bit(right, 1) : 0u) | (has_down ? bit(down, 2) : 0u) |
+         (has_right && has_down ? bit(last, 3) : 0u);
 }
 
 }  // namespace weft::native

@@ -22,6 +22,9 @@ class SelfCollision {
 
  private:
   void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  std::uint32_t looks_beside(std::size_t x, std::size_t y) const;
+  void make_room_for_tree();
   void look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const;
 
   Cloth& cloth_;
@@ -30,6 +33,9 @@ class SelfCollision {
   std::vector<const float*> rows_;  ///< by row of the cloth
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> buckets_, left_over_;
+  std::vector<NearNode> nodes_;      ///< of all levels of the tree
+  std::vector<NearLevel> levels_;    ///< the leaves first
+  std::vector<std::uint8_t> bends_;  ///< by patch, one more on every side: as cell_count has said
 };
 
 }  // namespace weft::native

@@ -1,10 +1,6 @@
 // What a thread keeps of the rows of particles while it looks at patches, and how near the particles of two
 // patches beside each other come. Included by patch_text.h.
 
-WEFT_INLINE void fill(float* from, const float* end, float value) {
-  for (; from != end; ++from) *from = value;
-}
-
 /// The rows round a row of patches. Each stands there twice: as it is, with its first and last particle again
 /// beyond its ends; and split into even and odd columns, with no number where the cloth has no particle,
 /// which is near nothing.

@@ -120,6 +120,12 @@ class PatchSearch {
   }
   Cell cell_of(std::uint32_t patch) const { return cell_of_box(view_, low(patch), high(patch), patch); }
 
+  /// How many cells beyond a box those are that have the middles of patches with a particle within `search`.
+  T cells_beyond(T search) const {
+    const T far = search + kHalfRoom * widest_;
+    return std::min(far * view_.inverse_cell, static_cast<T>(shared::kCellsFromOriginMax));
+  }
+
   /// The largest gap between two boxes along an axis; less than 0 where they overlap.
   static T gap(const V& low_a, const V& high_a, const V& low_b, const V& high_b) {
     const V before = low_b - high_a, after = low_a - high_b;
@@ -134,8 +140,7 @@ class PatchSearch {
   /// @return whether those were all cells
   template <class Visit>
   bool around(const V& low, const V& high, T search, bool own_cell_only, Visit&& visit) const {
-    const T far = search + kHalfRoom * widest_;
-    const T far_cells = std::min(far * view_.inverse_cell, static_cast<T>(shared::kCellsFromOriginMax));
+    const T far_cells = cells_beyond(search);
     Cell first{}, last{};
     bool all = true;
     for (int axis = 0; axis < 3; ++axis) {
