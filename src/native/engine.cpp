@@ -151,8 +151,8 @@ void Engine::run(const PlanStep& step, const Kick& kick) {
   if (effects_->run(step, kick, crew(choice_.best()), choice_.best()) && xpbd_) xpbd_->take_masses();
 }
 
-void Engine::look(const Pass& pass, HostBuffers<float>& buffers) {
-  self_collision_->run(pass, buffers, crew(choice_.best()), choice_.best());
+bool Engine::look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers) {
+  return self_collision_->run(pass, context, buffers, crew(choice_.best()), choice_.best());
 }
 
 RowThreads& Engine::threads_for_mirrors() { return crew_rows_.emplace(crew(choice_.best()), choice_.best()); }

@@ -44,8 +44,9 @@ class Engine {
   void load(const HostBuffers<float>& buffers);
   /// One step of Means::effect, with its row of the schedule.
   void run(const PlanStep& step, const Kick& kick);
-  /// One step of Means::look. Rows and buffers hold the same state.
-  void look(const Pass& pass, HostBuffers<float>& buffers);
+  /// One step of Means::look. Where the pass reads positions in the buffers, too (SelfCollision::
+  /// reads_buffers), they are those of the rows. Returns whether rows have changed.
+  bool look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers);
   /// Valid until the next call of another function.
   RowThreads& threads_for_mirrors();
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }

@@ -180,6 +180,22 @@ constexpr std::size_t patch_look_floats(std::size_t nx) {
   return 6 * 3 * columns + 2 * columns + (4 * 2 * 3 + 7) * patches;
 }
 
+/// Rows [first, last) of a cloth of nx columns: who has moved so far that lists are stale, or out of its
+/// room, as docs/float-form.md "Motion".
+struct LeashLook {
+  std::size_t stride, nx, first, last;
+  const float* const* rows;               ///< by row
+  const float* relative_inverse_mass;     ///< by particle
+  const float *built, *near;              ///< vec4 a particle
+  const std::uint32_t* bounds;            ///< by particle: bits of a distance [m]
+  std::uint32_t no_bound;                 ///< bits of one without
+  float with_lists[3], with_contacts[3];  ///< the motion that all share [m]
+  float moved_squared_max, roam_max;      ///< [m², m]
+  float surface_limit, roam_share;        ///< [m]
+  std::uint32_t* left_over;               ///< room for the particles of these rows
+  std::uint32_t stale;                    ///< result
+};
+
 /// Sixteen boxes of the tree of patches: four by four patches of a leaf, or four by four nodes of the level
 /// below, row by row. What is near nothing has its low corner above the high one, both infinite.
 struct alignas(64) NearNode {
@@ -216,6 +232,7 @@ struct Kernels {
   void (*air_kick)(const AirKick&);
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
+  std::size_t (*look_at_motion)(LeashLook&);       ///< returns how many particles are out of their room
   std::size_t (*look_at_patches)(PatchLook&);      ///< returns how many cells it left over
   void (*make_near_leaves)(const NearLook&);
   void (*make_near_levels)(const NearLook&);  ///< once all leaves are made

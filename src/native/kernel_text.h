@@ -51,6 +51,7 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 #include "native/air_text.h"
 #include "native/contact_text.h"
 #include "native/fold_text.h"
+#include "native/leash_text.h"
 #include "native/near_text.h"
 #include "native/patch_text.h"
 #include "native/solid_text.h"
@@ -288,6 +289,7 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           air_kick,
           touch_solids,
           tear,
+          look_at_motion,
           look_at_patches,
           make_near_leaves,
           make_near_levels,

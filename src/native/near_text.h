@@ -119,11 +119,13 @@ WEFT_INLINE unsigned near_boxes(const NearNode& node, const float* const (&low)[
 
 /// Of the sixteen patches of leaf (x, y), those that are (i, j) or beside it.
 WEFT_INLINE unsigned beside_in(Index x, Index y, Index i, Index j) {
-  const auto near = [](Index a, Index b) { return a + 1 >= b && a <= b + 1; };
-  unsigned found = 0;
-  for (Index k = 0; k < kColumns; ++k)
-    if (near(4 * x + k % 4, i) && near(4 * y + k / 4, j)) found |= 1u << k;
-  return found;
+  const auto near = [](Index first, Index at) {  // of four, those from at − 1 to at + 1
+    const Index place = at + 1 - first;
+    return place > 5 ? 0u : (7u << place >> 2) & 15u;
+  };
+  const unsigned columns = near(4 * x, i), rows = near(4 * y, j);
+  return (columns * 0x1111u) &
+         ((rows & 1u) * 0xfu | (rows & 2u) * 0x78u | (rows & 4u) * 0x3c0u | (rows & 8u) * 0x1e00u);
 }
 
 /// The open patches of a leaf against those of leaf (x, y).

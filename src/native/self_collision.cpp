@@ -6,14 +6,16 @@
 #include <array>
 #include <utility>
 
+#include "passes/carry.h"
 #include "passes/folds.h"
+#include "passes/leash.h"
 #include "passes/passes.h"
 #include "passes/patches.h"
 
 namespace weft::native {
 namespace {
 
-constexpr std::array kLooking{&cell_count, &patch_near};
+constexpr std::array kLooking{&carry, &pair_check, &cell_count, &patch_near};
 constexpr std::uint32_t kUncoveredCell = 0x40000000;  // as PatchSearch::cell_of_box
 
 }  // namespace
@@ -49,9 +51,79 @@ std::uint64_t SelfCollision::bytes() const {
 
 bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
 
-void SelfCollision::run(const Pass& pass, HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+bool SelfCollision::reads_buffers(const Pass& pass) { return &pass == &cell_count; }
+
+bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers,
+                        Crew& crew, std::uint32_t threads) {
+  if (&pass == &carry) carry_along(context.model, buffers);
+  if (&pass == &pair_check) return check_motion(context, buffers, crew, threads);
   if (&pass == &cell_count && lists_stale(buffers)) count_cells(buffers, crew, threads);
   if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
+  return false;
+}
+
+void SelfCollision::carry_along(const Model& model, HostBuffers<float>& buffers) const {
+  const std::size_t stride = cloth_.sheet().stride;
+  const auto vector_at = [&](std::uint32_t p, std::size_t first) {
+    const float* const at = rows_[p / cloth_.nx()] + kColumns + p % cloth_.nx() + first * stride;
+    return glm::vec3(at[0], at[stride], at[2 * stride]);
+  };
+  weft::carry_along(
+      model, buffers, [&](std::uint32_t p) { return vector_at(p, 0); },
+      [&](std::uint32_t p) { return vector_at(p, 3); });
+}
+
+bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+                                 std::uint32_t threads) {
+  bool stale = begin_check(context, view_, buffers), moved = false;
+  if (buffers.words_of(BufferId::collision_state)[shared::kListsArmed] != 0) {
+    buffers[BufferId::near_position].resize(view_.grid.count());
+    const Leash<float> leash(view_, buffers);
+    const glm::vec3 &b = leash.with_lists(), &n = leash.with_contacts();
+    std::vector<LeashLook> looks(threads, {.stride = cloth_.sheet().stride,
+                                           .nx = cloth_.nx(),
+                                           .rows = rows_.data(),
+                                           .relative_inverse_mass = cloth_.relative_inverse_mass().data(),
+                                           .built = &buffers[BufferId::built_position][0].x,
+                                           .near = &buffers[BufferId::near_position][0].x,
+                                           .bounds = buffers.words_of(BufferId::surface_bound).data(),
+                                           .no_bound = shared::kInfinity,
+                                           .with_lists = {b.x, b.y, b.z},
+                                           .with_contacts = {n.x, n.y, n.z},
+                                           .moved_squared_max = view_.moved_squared_max,
+                                           .roam_max = view_.roam_max,
+                                           .surface_limit = view_.surface_limit,
+                                           .roam_share = shared::kRoamShare});
+    std::vector<std::size_t> counts(threads);
+    crew.run(threads, [&](std::uint32_t own) {
+      LeashLook& look = looks[own];
+      look.first = own * cloth_.ny() / threads;
+      look.last = (own + std::size_t{1}) * cloth_.ny() / threads;
+      look.left_over = left_over_.data() + look.first * cloth_.nx();
+      counts[own] = kernels_.look_at_motion(look);
+    });
+    for (std::uint32_t own = 0; own < threads; ++own) {
+      stale |= looks[own].stale != 0;
+      moved |= hold_back({looks[own].left_over, counts[own]}, buffers);
+    }
+  }
+  end_check(view_, stale, buffers);
+  return moved;
+}
+
+/// With the mirror's own code: few are out of their room.
+bool SelfCollision::hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers) {
+  const Leash<float> leash(view_, buffers);
+  const std::size_t stride = cloth_.sheet().stride;
+  for (const std::uint32_t p : particles) {
+    const float* const at = rows_[p / cloth_.nx()] + kColumns + p % cloth_.nx();
+    glm::vec3 x(at[0], at[stride], at[2 * stride]), v(at[3 * stride], at[4 * stride], at[5 * stride]);
+    buffers.words_of(BufferId::collision_state)[shared::kHeldBack] += leash.keep(
+        x, v, glm::vec3(buffers[BufferId::built_position][p]), glm::vec3(buffers[BufferId::near_position][p]),
+        buffers.words_of(BufferId::surface_bound)[p]);
+    cloth_.place(p, {x.x, x.y, x.z}, {v.x, v.y, v.z});
+  }
+  return !particles.empty();
 }
 
 void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {

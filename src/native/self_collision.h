@@ -16,11 +16,18 @@ class SelfCollision {
 
   /// Whether the pass runs here.
   static bool has(const Pass& pass);
-  /// One dispatch of such a pass, in that many of the crew's threads. Rows and buffers hold the same state.
-  void run(const Pass& pass, HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  /// Whether it reads positions in the buffers, too.
+  static bool reads_buffers(const Pass& pass);
+  /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
+  bool run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+           std::uint32_t threads);
   std::uint64_t bytes() const;
 
  private:
+  void carry_along(const Model& model, HostBuffers<float>& buffers) const;
+  bool check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+                    std::uint32_t threads);
+  bool hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers);
   void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   std::uint32_t looks_beside(std::size_t x, std::size_t y) const;

@@ -61,7 +61,7 @@ class NativeSimulation final : public CpuSimulation<float> {
       } else if (native::means_of(*step.pass) == native::Means::effect) {
         run_effect(step, substep);
       } else if (native::means_of(*step.pass) == native::Means::look) {
-        run_look(step);
+        run_look(step, substep);
       } else if (step.pass == &normals) {
         const Clock::time_point began = Clock::now();
         need_rows();
@@ -100,29 +100,35 @@ class NativeSimulation final : public CpuSimulation<float> {
     this->count(step, 1, ms_since(began));
   }
 
-  void run_look(const PlanStep& step) {
+  /// Whether a pass that takes its workgroups from a word of collision_state has any.
+  bool has_work(const PlanStep& step) const {
+    const auto word = step.pass->groups_word;
+    return !word || buffers_.words_of(BufferId::collision_state)[*word] != 0;
+  }
+
+  void run_look(const PlanStep& step, std::uint32_t substep) {
     const Clock::time_point began = Clock::now();
-    if (step.pass == &pair_check || lists_in_making(buffers_)) {
+    if (has_work(step)) {
       need_rows();
-      need_buffers();
-      engine_.look(*step.pass, buffers_);
+      if (native::SelfCollision::reads_buffers(*step.pass)) need_buffers();
+      if (engine_.look(*step.pass, context_of(step, substep), buffers_)) buffers_current_ = false;
     }
     this->count(step, 1, ms_since(began));
   }
 
   void run_mirror(const PlanStep& step, std::uint32_t substep) {
+    if (!has_work(step)) return this->count(step, 1, 0.0);
     need_buffers();
     const RowThreadsInUse threads(engine_.threads_for_mirrors());
     run_step(step, substep);
-    const bool moves = step.block == Block::substep || step.pass->swaps_state || step.pass == &pair_check;
+    const bool moves = step.block == Block::substep || step.pass->swaps_state;
     if (moves && !only_lists(*step.pass)) rows_current_ = false;  // what else ends a frame only looks at it
   }
 
   /// Whether a pass of self-collision makes lists or weighs contacts and moves nobody.
   static bool only_lists(const Pass& pass) {
-    static constexpr std::array kOnlyLists{&carry,        &cell_count,   &cell_scan,   &cell_fill,
-                                           &cell_sort,    &patch_near,   &pair_gather, &surface_gather,
-                                           &touch_weight, &surface_touch};
+    static constexpr std::array kOnlyLists{&cell_scan,      &cell_fill,    &cell_sort,    &pair_gather,
+                                           &surface_gather, &touch_weight, &surface_touch};
     return std::ranges::count(kOnlyLists, &pass) > 0;
   }
 
