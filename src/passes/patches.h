@@ -71,15 +71,6 @@ Range patch_domain(const Model& model);
 /// One invocation a block of 2 x 2 patches of one cloth.
 Range block_domain(const Model& model);
 
-/// The eight particles round one on its cloth, row by row; nothing outside.
-inline std::optional<std::uint32_t> beside_at(const Grid& grid, std::uint32_t particle, std::uint32_t k) {
-  const std::uint32_t place = k < 4 ? k : k + 1, row = particle / grid.nx, own = grid.own_row(row);
-  const std::int64_t i = std::int64_t{particle % grid.nx} + place % 3 - 1,
-                     j = std::int64_t{own} + place / 3 - 1;
-  if (i < 0 || j < 0 || i >= std::int64_t{grid.nx} || j >= std::int64_t{grid.ny}) return std::nullopt;
-  return grid.index(static_cast<std::uint32_t>(i), row - own + static_cast<std::uint32_t>(j));
-}
-
 /// Whether they are the same or neighbours on one cloth.
 inline bool beside(const Grid& grid, std::uint32_t a, std::uint32_t b) {
   const auto near = [](std::uint32_t x, std::uint32_t y) { return x + 1 >= y && x <= y + 1; };
