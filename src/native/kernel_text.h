@@ -190,8 +190,8 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
   next.x = own.x + splat(kick.drift) * next.v;
   if constexpr (kEffects & kContact)
     if (kick.drift > 0.0f) next = touch(acting.outside, kick, own.x, next);
-  if (half != nullptr) {
-    store_first(half, s, next.v);
+  if (half != nullptr) {  // who is let go within a frame goes on from the velocity that its pin had
+    store_first(half, s, *waiting.has_fixed ? select(w == Vec{}, own.v, next.v) : next.v);
     Vec3 further = splat(kick.predict_gain) * acceleration;
     if constexpr (kEffects & kAir) further = further - splat(kick.predict_loss) * next.v;
     next.v = next.v + further;
