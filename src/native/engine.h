@@ -26,7 +26,7 @@ enum class Means {
   look,    ///< of self-collision, from the cloth's rows into buffers: Engine::look
   mirror   ///< the pass's mirror over buffers, its rows split over Engine::threads_for_mirrors
 };
-Means means_of(const Pass& pass);
+Means means_of(const Pass& pass, const Plan& plan);
 
 /// Why native does not run this plan; empty when it does.
 std::string unsupported(const Plan& plan);

@@ -26,8 +26,8 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
       view_(model),
       buckets_(PatchGrid(model.grid).count()),
       left_over_(4 * buckets_.size()) {
-  for (std::size_t j = 0; j < cloth.ny(); ++j) rows_.push_back(cloth.row(j));
-  make_room_for_tree();
+  for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
+  if (model.grid.cloths == 1) make_room_for_tree();
 }
 
 void SelfCollision::make_room_for_tree() {
@@ -49,7 +49,12 @@ std::uint64_t SelfCollision::bytes() const {
          nodes_.size() * sizeof(NearNode) + bends_.size();
 }
 
-bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
+/// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
+/// cloth's.
+bool SelfCollision::has(const Pass& pass, const Plan& plan) {
+  if (plan.sheet_rows != 0 && (&pass == &cell_count || &pass == &patch_near)) return false;
+  return std::ranges::count(kLooking, &pass) > 0;
+}
 
 bool SelfCollision::reads_buffers(const Pass& pass) { return &pass == &cell_count; }
 
@@ -97,8 +102,8 @@ bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float
     std::vector<std::size_t> counts(threads);
     crew.run(threads, [&](std::uint32_t own) {
       LeashLook& look = looks[own];
-      look.first = own * cloth_.ny() / threads;
-      look.last = (own + std::size_t{1}) * cloth_.ny() / threads;
+      look.first = own * cloth_.rows() / threads;
+      look.last = (own + std::size_t{1}) * cloth_.rows() / threads;
       look.left_over = left_over_.data() + look.first * cloth_.nx();
       counts[own] = kernels_.look_at_motion(look);
     });

@@ -6,6 +6,7 @@
 #include "native/cloth.h"
 #include "native/crew.h"
 #include "passes/collision.h"
+#include "plan/plan.h"
 
 namespace weft::native {
 
@@ -14,8 +15,8 @@ class SelfCollision {
   /// @param model  with [self_collision]; it and the cloth outlive this
   SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model);
 
-  /// Whether the pass runs here.
-  static bool has(const Pass& pass);
+  /// Whether the pass of the plan runs here.
+  static bool has(const Pass& pass, const Plan& plan);
   /// Whether it reads positions in the buffers, too.
   static bool reads_buffers(const Pass& pass);
   /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
@@ -37,7 +38,7 @@ class SelfCollision {
   Cloth& cloth_;
   const Kernels& kernels_;
   CollisionView<float> view_;
-  std::vector<const float*> rows_;  ///< by row of the cloth
+  std::vector<const float*> rows_;  ///< by row of all cloths
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> buckets_, left_over_;
   std::vector<NearNode> nodes_;      ///< of all levels of the tree

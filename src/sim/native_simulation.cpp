@@ -56,11 +56,11 @@ class NativeSimulation final : public CpuSimulation<float> {
     bool swept = false;
     for (const PlanStep& step : plan_.steps) {
       if (step.block != block || (block == Block::substep && substep % step.interval != 0)) continue;
-      if (native::means_of(*step.pass) == native::Means::sweep) {
+      if (native::means_of(*step.pass, plan_) == native::Means::sweep) {
         if (!std::exchange(swept, true)) sweep(block, substep, 1);
-      } else if (native::means_of(*step.pass) == native::Means::effect) {
+      } else if (native::means_of(*step.pass, plan_) == native::Means::effect) {
         run_effect(step, substep);
-      } else if (native::means_of(*step.pass) == native::Means::look) {
+      } else if (native::means_of(*step.pass, plan_) == native::Means::look) {
         run_look(step, substep);
       } else if (step.pass == &normals) {
         const Clock::time_point began = Clock::now();
@@ -76,7 +76,7 @@ class NativeSimulation final : public CpuSimulation<float> {
   /// The steps of the block's sweep, in so many substeps.
   void sweep(Block block, std::uint32_t first, std::uint32_t count) {
     const auto swept = [&](const PlanStep& step) {
-      return step.block == block && native::means_of(*step.pass) == native::Means::sweep;
+      return step.block == block && native::means_of(*step.pass, plan_) == native::Means::sweep;
     };
     need_rows();
     if (contact_follows_) {  // it reads where the drift began
@@ -127,7 +127,8 @@ class NativeSimulation final : public CpuSimulation<float> {
 
   /// Whether a pass of self-collision makes lists or weighs contacts and moves nobody.
   static bool only_lists(const Pass& pass) {
-    static constexpr std::array kOnlyLists{&cell_scan,      &cell_fill,    &cell_sort,    &pair_gather,
+    static constexpr std::array kOnlyLists{&cell_count,     &patch_near,   &cell_scan,
+                                           &cell_fill,      &cell_sort,    &pair_gather,
                                            &surface_gather, &touch_weight, &surface_touch};
     return std::ranges::count(kOnlyLists, &pass) > 0;
   }
@@ -163,8 +164,8 @@ class NativeSimulation final : public CpuSimulation<float> {
   }
 
   void look_at_plan() {
-    only_sweeps_ = std::ranges::all_of(plan_.steps, [](const PlanStep& step) {
-      return step.block != Block::substep || native::means_of(*step.pass) == native::Means::sweep;
+    only_sweeps_ = std::ranges::all_of(plan_.steps, [this](const PlanStep& step) {
+      return step.block != Block::substep || native::means_of(*step.pass, plan_) == native::Means::sweep;
     });
     contact_follows_ =
         std::ranges::any_of(plan_.steps, [](const PlanStep& step) { return step.pass == &mesh_contact; });
