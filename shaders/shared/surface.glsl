@@ -22,9 +22,9 @@ real3 closest_in_triangle(real3 p, real3 a, real3 b, real3 corner) {
   precise real3 bp = p - b;
   real d3 = dot3(ab, bp), d4 = dot3(ac, bp);
   if (d3 >= 0.0 && d4 <= d3) return real3(0.0, 1.0, 0.0);
-  precise real vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    precise real v = d1 / (d1 - d3);
+  precise real vc = d1 * d4 - d3 * d2, along = d1 - d3;
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && along > 0.0) {  // not where the two corners lie on each other
+    precise real v = d1 / along;
     precise real rest = 1.0 - v;
     return real3(rest, v, 0.0);
   }

@@ -13,12 +13,17 @@ namespace weft::native {
 
 inline constexpr std::uint32_t kRowsPerBandMin = 4;  ///< the first two and the last two are other rows
 
+/// Where the b-th of so many bands begins, by row of all cloths; b = count: where the last one ends. A border
+/// never parts one row from the rest of its cloth, for a band reaches two rows into its neighbour.
+std::size_t band_border(const Cloth& cloth, std::size_t b, std::size_t count);
+
 /// How the rows are divided, and what bands hand each other. A band hands on its outer two rows of each end
 /// after every sweep, into one of two copies by turns: a neighbour reads one while the other is written, so
-/// that nobody waits for a reader. No bit depends on the division.
+/// that nobody waits for a reader. Where one cloth ends and another begins nothing is handed on and nobody
+/// waits; a band with rows of several cloths sweeps one after the other. No bit depends on the division.
 class Bands {
  public:
-  /// @param count  at most cloth.ny() / kRowsPerBandMin, at least 1
+  /// @param count  at most cloth.rows() / kRowsPerBandMin, at least 1
   /// @param half_velocity  velocity Verlet's, 3·stride a row; null in leapfrog
   Bands(Cloth& cloth, const Kernels& kernels, std::uint32_t count, float* half_velocity = nullptr);
 
@@ -30,13 +35,16 @@ class Bands {
 
  private:
   struct alignas(64) Band {
-    std::size_t first = 0, last = 0;
-    std::vector<float*> rows;  ///< by row of the cloth
+    std::vector<ClothRows> parts;                       ///< by cloth
+    std::vector<float*> rows;                           ///< as Cloth::padded_rows
+    std::size_t first = 0, last = 0;                    ///< places in these
+    bool goes_on_above = false, goes_on_below = false;  ///< its outer cloths, in the neighbours
     Floats carried;
     Floats handed;                       ///< two copies of four rows
     std::atomic<std::uint32_t> done{0};  ///< states handed on since the sweeps began
   };
   void sweep_band(std::uint32_t own, std::span<const Kick> kicks);
+  void sweep_rows(const Band& band, const Kick& kick);
   void take_neighbours(std::uint32_t own, std::size_t copy);
   void hand_on(Band& band, std::size_t copy);
   float* handed_row(const Band& band, std::size_t copy, std::size_t row) const;

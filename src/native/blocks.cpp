@@ -12,8 +12,8 @@ Blocks::Blocks(const Model& model, const ClothChanges& now)
       rows_(spring_rows<float>(model)),
       interior_(static_cast<float>(1.0 / model.interior_mass_kg)),
       per_row_((model.grid.nx + kColumns - 1) / kColumns),
-      of_(model.grid.ny * per_row_) {
-  for (std::size_t j = 0; j < grid_.ny; ++j)
+      of_(model.grid.rows() * per_row_) {
+  for (std::size_t j = 0; j < grid_.rows(); ++j)
     for (std::size_t b = 0; b < per_row_; ++b) refresh(j, b, now);
 }
 
@@ -23,11 +23,12 @@ std::uint64_t Blocks::bytes() const {
 
 /// The coefficients of one of a particle's forward pairs; null where it does not exist or is broken. With
 /// broken links: docs/float-form.md "Tearing".
-const glm::vec4* Blocks::find(PairName pair, std::size_t i, std::size_t j, const ClothChanges& now) const {
-  const std::size_t nx = grid_.nx, ny = grid_.ny;
+const glm::vec4* Blocks::find(PairName pair, std::size_t i, std::size_t row_of_all,
+                              const ClothChanges& now) const {
+  const std::size_t nx = grid_.nx, ny = grid_.ny, j = row_of_all % ny;
   const bool right = i + 1 < nx, below = j + 1 < ny;
   const std::size_t column_edge = i == 0 || !right ? 1 : 0, row_edge = j == 0 || !below ? 1 : 0;
-  const auto p = static_cast<std::uint32_t>(j * nx + i);
+  const auto p = static_cast<std::uint32_t>(row_of_all * nx + i);
   const auto whole = [&](std::uint32_t named, std::uint32_t bit) {
     return !is_broken(now.broken_links, named, bit);
   };
@@ -84,7 +85,7 @@ void Blocks::refresh(std::size_t j, std::size_t b, const ClothChanges& now) {
 
 void Blocks::refresh_around(std::uint32_t particle, const ClothChanges& now) {
   const std::size_t i = particle % grid_.nx, j = particle / grid_.nx;
-  const std::size_t last_row = std::min<std::size_t>(j + 1, grid_.ny - 1);
+  const std::size_t last_row = std::min<std::size_t>(j + 1, grid_.rows() - 1);
   const std::size_t last_column = std::min<std::size_t>(i + 1, grid_.nx - 1);
   for (std::size_t row = j == 0 ? 0 : j - 1; row <= last_row; ++row)
     for (std::size_t b = (i == 0 ? 0 : i - 1) / kColumns; b <= last_column / kColumns; ++b)

@@ -24,18 +24,19 @@ class Blocks {
   Blocks(const Model& model, const ClothChanges& now);
 
   const Block* data() const { return blocks_.data(); }
-  const std::uint32_t* of() const { return of_.data(); }  ///< by row and block
+  const std::uint32_t* of() const { return of_.data(); }  ///< by row of all cloths, and block
   std::size_t per_row() const { return per_row_; }
   std::size_t distinct() const { return blocks_.size(); }
   std::uint64_t bytes() const;
   /// Finds or makes the block of sixteen columns anew; data() and of() may be others afterwards.
   void refresh(std::size_t j, std::size_t b, const ClothChanges& now);
-  /// The blocks of a particle and its eight neighbours, which a link that breaks there changes.
+  /// The blocks of a particle and its eight neighbours, which a link that breaks there changes; the rows
+  /// above and below may be another cloth's, whose blocks become what they were.
   void refresh_around(std::uint32_t particle, const ClothChanges& now);
 
  private:
   Block make(std::size_t j, std::size_t b, const ClothChanges& now) const;
-  const glm::vec4* find(PairName pair, std::size_t i, std::size_t j, const ClothChanges& now) const;
+  const glm::vec4* find(PairName pair, std::size_t i, std::size_t row_of_all, const ClothChanges& now) const;
 
   Grid grid_;
   SpringRows<float> rows_;

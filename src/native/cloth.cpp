@@ -118,12 +118,13 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
 Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad)
     : nx_(model.grid.nx),
       ny_(model.grid.ny),
+      rows_(model.grid.rows()),
       variant_(variant_of(constants)),
       relative_inverse_mass_(model.relative_inverse_mass.begin(), model.relative_inverse_mass.end()),
       broken_links_(model.scene.tearing ? model.grid.count() : 0),
       blocks_(model, changes()) {
   sheet_.stride = stride_for(nx_, pad);
-  state_ = make_floats((ny_ + 2) * row_floats());
+  state_ = make_floats(model.grid.cloths * padded_ny() * row_floats());
   point_at_blocks();
   if (is_on(constants, kHasGravity)) copy(model.scene.gravity->acceleration_m_s2, outside_.gravity);
   outside_.has_gravity = is_on(constants, kHasGravity);
@@ -138,8 +139,21 @@ Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_
 }
 
 std::uint64_t Cloth::bytes() const {
-  return (ny_ + 2) * row_floats() * sizeof(float) + blocks_.bytes() +
+  return padded_place(rows_) * row_floats() * sizeof(float) + blocks_.bytes() +
          relative_inverse_mass_.size() * sizeof(float) + broken_links_.size() * sizeof(std::uint32_t);
+}
+
+Sheet Cloth::sheet_of(std::size_t cloth) const {
+  Sheet sheet = sheet_;
+  sheet.block_of += cloth * ny_ * sheet.block_count;
+  return sheet;
+}
+
+std::vector<float*> Cloth::padded_rows() {
+  std::vector<float*> rows;
+  for (std::size_t place = 0; place < padded_place(rows_); ++place)
+    rows.push_back(state_.get() + place * row_floats());
+  return rows;
 }
 
 void Cloth::point_at_blocks() {

@@ -1,5 +1,7 @@
-// A cloth as the vector kernels hold it: rows of coordinates and deduplicated blocks of coefficients.
+// What is simulated as the vector kernels hold it: rows of coordinates and deduplicated blocks of
+// coefficients, cloth after cloth.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,25 +37,47 @@ class KickTable {
   std::vector<Kick> kicks_;
 };
 
+/// Rows [first, last) of one of several cloths, counted within it. The kernels know but one cloth: they are
+/// handed each with its own part of every array.
+struct ClothRows {
+  std::size_t cloth, first, last;
+};
+
 class Cloth {
  public:
   /// @param constants  of the plan's steps: which effects there are
   /// @param pad        columns to the right of the cloth, a multiple of kColumns
   Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad = kColumns);
 
-  const Sheet& sheet() const { return sheet_; }
+  const Sheet& sheet() const { return sheet_; }  ///< of the first cloth
+  Sheet sheet_of(std::size_t cloth) const;
   const Outside& outside() const { return outside_; }
   std::uint32_t variant() const { return variant_; }  ///< SweepEffect bits
   std::size_t nx() const { return nx_; }
-  std::size_t ny() const { return ny_; }
+  std::size_t ny() const { return ny_; }      ///< rows of one cloth
+  std::size_t rows() const { return rows_; }  ///< of all cloths
   std::size_t row_floats() const { return 6 * sheet_.stride; }
-  /// Row j; two rows beyond the last are there and stay 0.
-  float* row(std::size_t j) { return state_.get() + j * row_floats(); }
+  /// Row j of the rows of all cloths.
+  float* row(std::size_t j) { return state_.get() + padded_place(j) * row_floats(); }
+  /// Each cloth's rows and the two that stay 0 after them: the k-th's begin at k·padded_ny().
+  std::vector<float*> padded_rows();
+  std::size_t padded_ny() const { return ny_ + 2; }
+  /// Where row j of the rows of all cloths is among these.
+  std::size_t padded_place(std::size_t j) const { return j / ny_ * padded_ny() + j % ny_; }
+  /// Of rows [first, last) of all cloths, act(ClothRows) with those of each.
+  template <class Act>
+  void in_each_cloth(std::size_t first, std::size_t last, const Act& act) const {
+    for (std::size_t at = first; at < last;) {
+      const std::size_t begin = at / ny_ * ny_, end = std::min(last, begin + ny_);
+      act(ClothRows{at / ny_, at - begin, end - begin});
+      at = end;
+    }
+  }
   const std::vector<float>& relative_inverse_mass() const { return relative_inverse_mass_; }
   std::uint64_t bytes() const;
   std::size_t distinct_blocks() const { return blocks_.distinct(); }
 
-  /// Takes positions and velocities of rows [first, last).
+  /// Takes positions and velocities of rows [first, last) of all cloths.
   void load(const HostBuffers<float>& buffers, std::size_t first, std::size_t last);
   /// Takes who is fixed and which links are broken; returns whether anything was otherwise.
   bool take_changes(const HostBuffers<float>& buffers);
@@ -67,7 +91,7 @@ class Cloth {
  private:
   ClothChanges changes() const { return {relative_inverse_mass_, broken_links_}; }
   void point_at_blocks();
-  std::size_t nx_, ny_;
+  std::size_t nx_, ny_, rows_;
   Sheet sheet_{};
   Outside outside_{};
   std::uint32_t variant_ = 0;

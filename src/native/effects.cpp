@@ -34,17 +34,17 @@ constexpr std::array kOnRows{&pin_release, &aerodynamics, &solid_contact, &pin_p
 Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model)
     : cloth_(cloth),
       kernels_(kernels),
+      rows_(cloth.padded_rows()),
       solid_count_(solid_count(model)),
       ground_(model),
       held_(model.moved_particles) {
   for (const MovedParticle& held : held_)
     loosest_.push_back(static_cast<float>(model.loosest_inverse_mass(held.particle)));
-  for (std::size_t j = 0; j < cloth.ny() + 2; ++j) rows_.push_back(cloth.row(j));
   if (!solid_contact.domain(model).empty()) {
-    before_ = make_floats(cloth.ny() * 3 * cloth.sheet().stride);
+    before_ = make_floats(cloth.rows() * 3 * cloth.sheet().stride);
     left_over_.resize(model.grid.count());
   }
-  if (model.scene.aerodynamics) kicked_ = make_floats(cloth.ny() * 3 * cloth.sheet().stride);
+  if (model.scene.aerodynamics) kicked_ = make_floats(cloth.rows() * 3 * cloth.sheet().stride);
   const auto limits = strain_limit_rows<float>(model);
   longest_structural_m2_ = limits[shared::kLimitStructural].y;
   longest_shear_m2_ = limits[shared::kLimitShear].y;
@@ -86,20 +86,25 @@ void Effects::place_pins(const Kick& kick) {
   }
 }
 
+template <class Act>
+void Effects::share_out(Crew& crew, std::uint32_t threads, const Act& act) {
+  crew.run(threads, [&](std::uint32_t own) {
+    cloth_.in_each_cloth(own * cloth_.rows() / threads, (own + 1) * cloth_.rows() / threads, act);
+  });
+}
+
 void Effects::begin_drift(Crew& crew, std::uint32_t threads) {
   if (before_ == nullptr) return;
   const std::size_t floats = 3 * cloth_.sheet().stride;
-  crew.run(threads, [&](std::uint32_t own) {
-    for (std::size_t j = own * cloth_.ny() / threads; j < (own + 1) * cloth_.ny() / threads; ++j)
+  share_out(crew, threads, [&](const ClothRows& part) {
+    const std::size_t row = part.cloth * cloth_.ny();
+    for (std::size_t j = row + part.first; j < row + part.last; ++j)
       std::memcpy(before_.get() + j * floats, cloth_.row(j), floats * sizeof(float));
   });
 }
 
 void Effects::touch_solids(const Kick& kick, Crew& crew, std::uint32_t threads) {
-  SolidTouch all{.sheet = cloth_.sheet(),
-                 .nx = cloth_.nx(),
-                 .rows = rows_.data(),
-                 .before = before_.get(),
+  SolidTouch all{.nx = cloth_.nx(),
                  .solids = kick.solids,
                  .solid_count = solid_count_,
                  .has_level = ground_.has_level,
@@ -108,13 +113,18 @@ void Effects::touch_solids(const Kick& kick, Crew& crew, std::uint32_t threads) 
                  .floor_friction = ground_.level.friction,
                  .tilt_normal = {ground_.tilt.normal.x, ground_.tilt.normal.y, ground_.tilt.normal.z},
                  .tilt_level = ground_.tilt.level};
-  crew.run(threads, [&](std::uint32_t own) {
-    SolidTouch part = all;
-    part.first = own * cloth_.ny() / threads;
-    part.last = (own + 1) * cloth_.ny() / threads;
-    part.left_over = left_over_.data() + part.first * cloth_.nx();
-    const std::size_t count = kernels_.touch_solids(part);
-    for (std::size_t k = 0; k < count; ++k) touch_by_mirror(part.left_over[k], kick);
+  share_out(crew, threads, [&](const ClothRows& part) {
+    const std::size_t row = part.cloth * cloth_.ny();
+    SolidTouch touch = all;
+    touch.sheet = cloth_.sheet_of(part.cloth);
+    touch.first = part.first;
+    touch.last = part.last;
+    touch.rows = rows_.data() + part.cloth * cloth_.padded_ny();
+    touch.before = before_.get() + row * 3 * cloth_.sheet().stride;
+    touch.left_over = left_over_.data() + (row + part.first) * cloth_.nx();
+    const std::size_t count = kernels_.touch_solids(touch);
+    for (std::size_t k = 0; k < count; ++k)
+      touch_by_mirror(static_cast<std::uint32_t>(row * cloth_.nx()) + touch.left_over[k], kick);
   });
 }
 
@@ -135,20 +145,20 @@ void Effects::touch_by_mirror(std::uint32_t particle, const Kick& kick) {
 
 void Effects::kick_by_air(const Kick& kick, Crew& crew, std::uint32_t threads) {
   const std::size_t floats = 3 * cloth_.sheet().stride;
-  const auto first = [&](std::size_t own) { return own * cloth_.ny() / threads; };
-  crew.run(threads, [&](std::uint32_t own) {
-    kernels_.air_kick({.sheet = cloth_.sheet(),
+  share_out(crew, threads, [&](const ClothRows& part) {
+    kernels_.air_kick({.sheet = cloth_.sheet_of(part.cloth),
                        .nx = cloth_.nx(),
                        .ny = cloth_.ny(),
-                       .first = first(own),
-                       .last = first(own + 1),
-                       .rows = rows_.data(),
+                       .first = part.first,
+                       .last = part.last,
+                       .rows = rows_.data() + part.cloth * cloth_.padded_ny(),
                        .air = kick.air,
                        .gain = kick.gain,
-                       .kicked = kicked_.get()});
+                       .kicked = kicked_.get() + part.cloth * cloth_.ny() * floats});
   });
-  crew.run(threads, [&](std::uint32_t own) {  // once nobody reads the old ones any more
-    for (std::size_t j = first(own); j < first(own + 1); ++j)
+  share_out(crew, threads, [&](const ClothRows& part) {  // once nobody reads the old ones any more
+    const std::size_t row = part.cloth * cloth_.ny();
+    for (std::size_t j = row + part.first; j < row + part.last; ++j)
       std::memcpy(cloth_.row(j) + floats, kicked_.get() + j * floats, floats * sizeof(float));
   });
 }
@@ -156,7 +166,7 @@ void Effects::kick_by_air(const Kick& kick, Crew& crew, std::uint32_t threads) {
 void Effects::tear_links(Crew& crew, std::uint32_t threads) {
   links_before_.assign(cloth_.broken_links().begin(), cloth_.broken_links().end());
   std::vector<std::uint32_t> torn(threads);
-  crew.run(threads, [&](std::uint32_t own) {
+  crew.run(threads, [&](std::uint32_t own) {  // one cloth: what tears does not stand beside others
     torn[own] = kernels_.tear({.stride = cloth_.sheet().stride,
                                .nx = cloth_.nx(),
                                .ny = cloth_.ny(),

@@ -26,13 +26,16 @@ class Effects {
   bool release_pins(const Kick& kick);
   void place_pins(const Kick& kick);
   void kick_by_air(const Kick& kick, Crew& crew, std::uint32_t threads);
+  /// act(ClothRows) with the rows of each cloth, shared out to so many of the crew's threads.
+  template <class Act>
+  void share_out(Crew& crew, std::uint32_t threads, const Act& act);
   void touch_solids(const Kick& kick, Crew& crew, std::uint32_t threads);
   void touch_by_mirror(std::uint32_t particle, const Kick& kick);
   void tear_links(Crew& crew, std::uint32_t threads);
 
   Cloth& cloth_;
   const Kernels& kernels_;
-  std::vector<float*> rows_;  ///< by row of the cloth
+  std::vector<float*> rows_;  ///< as Cloth::padded_rows
   Floats before_;             ///< positions where the drift began, where contact with solids asks for them
   std::uint32_t solid_count_;
   Ground<float> ground_;

@@ -34,9 +34,10 @@ std::uint32_t threads_most() {
 }
 
 ThreadChoice choice_for(const Cloth& cloth, const EngineOptions& options) {
-  const auto rows_allow = static_cast<std::uint32_t>(std::max<std::size_t>(1, cloth.ny() / kRowsPerBandMin));
+  const auto rows_allow =
+      static_cast<std::uint32_t>(std::max<std::size_t>(1, cloth.rows() / kRowsPerBandMin));
   if (options.threads != 0) return ThreadChoice::fixed(std::min(options.threads, rows_allow));
-  return ThreadChoice(std::min(threads_most(), rows_allow), cloth.nx() * cloth.ny());
+  return ThreadChoice(std::min(threads_most(), rows_allow), cloth.nx() * cloth.rows());
 }
 
 bool is_xpbd(const Plan& plan) {
@@ -59,20 +60,20 @@ Cloth cloth_for(const Model& model, const Plan& plan) {
 
 }  // namespace
 
-Means means_of(const Pass& pass) {
+Means means_of(const Pass& pass, const Plan& plan) {
   static constexpr std::array kSwept{&integrate,    &integrate_torn, &velocity_verlet_step,
                                      &xpbd_predict, &xpbd_pins,      &xpbd_spring,
                                      &xpbd_bend,    &xpbd_tethers,   &xpbd_finish};
   if (std::ranges::count(kSwept, &pass) > 0) return Means::sweep;
+  if (SelfCollision::has(pass, plan)) return Means::look;
   return Effects::has(pass) ? Means::effect : Means::mirror;
 }
 
 std::string unsupported(const Plan& plan) {
   if (plan.precision != "f32") return "native computes in f32 only";
-  if (plan.sheet_rows != 0) return "native has no vector code for several cloths";
   // A solver is native's when its forces are: all else on the way runs beside them.
   for (const PlanStep& step : plan.steps)
-    if (step.spring_evaluations > 0 && means_of(*step.pass) != Means::sweep)
+    if (step.spring_evaluations > 0 && means_of(*step.pass, plan) != Means::sweep)
       return fmt::format("native has no vector code for the pass {}", step.pass->name);
   return {};
 }
@@ -88,22 +89,25 @@ void Engine::adopt(const Model& model, const Plan& plan) {
   bands_.clear();
   xpbd_.reset();
   effects_.reset();
+  self_collision_.reset();
   cloth_ = cloth_for(model, plan);
   furnish(model, plan);
 }
 
 void Engine::furnish(const Model& model, const Plan& plan) {
   effects_ = std::make_unique<Effects>(cloth_, kernels_, model);
+  if (model.scene.self_collision) self_collision_ = std::make_unique<SelfCollision>(cloth_, kernels_, model);
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
-    half_velocity_ = make_floats(cloth_.ny() * 3 * cloth_.sheet().stride);
+    half_velocity_ = make_floats(cloth_.rows() * 3 * cloth_.sheet().stride);
 }
 
 std::uint64_t Engine::bytes() const {
   std::uint64_t bytes = cloth_.bytes();
   if (xpbd_) bytes += xpbd_->bytes();
-  if (half_velocity_) bytes += cloth_.ny() * 3 * cloth_.sheet().stride * sizeof(float);
+  if (self_collision_) bytes += self_collision_->bytes();
+  if (half_velocity_) bytes += cloth_.rows() * 3 * cloth_.sheet().stride * sizeof(float);
   return bytes;
 }
 
@@ -139,12 +143,16 @@ void Engine::load(const HostBuffers<float>& buffers) {
   if (cloth_.take_changes(buffers) && xpbd_) xpbd_->take_masses();
   const std::uint32_t threads = choice_.best();
   crew(threads).run(threads, [&](std::uint32_t own) {
-    cloth_.load(buffers, own * cloth_.ny() / threads, (own + 1) * cloth_.ny() / threads);
+    cloth_.load(buffers, own * cloth_.rows() / threads, (own + 1) * cloth_.rows() / threads);
   });
 }
 
 void Engine::run(const PlanStep& step, const Kick& kick) {
   if (effects_->run(step, kick, crew(choice_.best()), choice_.best()) && xpbd_) xpbd_->take_masses();
+}
+
+bool Engine::look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers) {
+  return self_collision_->run(pass, context, buffers, crew(choice_.best()), choice_.best());
 }
 
 RowThreads& Engine::threads_for_mirrors() { return crew_rows_.emplace(crew(choice_.best()), choice_.best()); }

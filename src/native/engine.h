@@ -10,6 +10,7 @@
 #include "native/bands.h"
 #include "native/effects.h"
 #include "native/engine_options.h"
+#include "native/self_collision.h"
 #include "native/surface_target.h"
 #include "native/thread_choice.h"
 #include "native/xpbd.h"
@@ -22,9 +23,10 @@ namespace weft::native {
 enum class Means {
   sweep,   ///< kernels, together with the other steps of a sweep: Engine::sweep
   effect,  ///< on the cloth's rows, by itself: Engine::run
+  look,    ///< of self-collision, from the cloth's rows into buffers: Engine::look
   mirror   ///< the pass's mirror over buffers, its rows split over Engine::threads_for_mirrors
 };
-Means means_of(const Pass& pass);
+Means means_of(const Pass& pass, const Plan& plan);
 
 /// Why native does not run this plan; empty when it does.
 std::string unsupported(const Plan& plan);
@@ -42,6 +44,9 @@ class Engine {
   void load(const HostBuffers<float>& buffers);
   /// One step of Means::effect, with its row of the schedule.
   void run(const PlanStep& step, const Kick& kick);
+  /// One step of Means::look. Where the pass reads positions in the buffers, too (SelfCollision::
+  /// reads_buffers), they are those of the rows. Returns whether rows have changed.
+  bool look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers);
   /// Valid until the next call of another function.
   RowThreads& threads_for_mirrors();
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }
@@ -74,6 +79,7 @@ class Engine {
   Cloth cloth_;
   const Kernels& kernels_;
   std::unique_ptr<Effects> effects_;
+  std::unique_ptr<SelfCollision> self_collision_;
   Floats half_velocity_;        ///< velocity Verlet's
   std::unique_ptr<Xpbd> xpbd_;  ///< the sweeps, where XPBD is the solver
   ThreadChoice choice_;

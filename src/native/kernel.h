@@ -159,6 +159,63 @@ struct Tear {
   std::uint32_t* broken_links;            ///< by particle
 };
 
+/// Rows [first, last) of patches of a cloth of nx × ny: boxes and bends, as docs/float-form.md "Patches" and
+/// "Folds".
+struct PatchLook {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;        ///< by row of the cloth
+  float search_squared, flat_min;  ///< [m², m]
+  float* scratch;                  ///< patch_look_floats(nx) of them
+  float* boxes;                    ///< two vec4 a patch; all but what left_over says of creases
+  std::uint32_t* left_over;        ///< room for the cells of these rows: 4·patch + k
+  std::uint32_t longest;           ///< result: bits of the longest edge squared
+};
+/// Floats that PatchLook::scratch has room for.
+constexpr std::size_t patch_look_floats(std::size_t nx) {
+  const std::size_t columns = (nx + kColumns - 1) / kColumns * kColumns + 2 * kColumns;
+  const std::size_t patches = (nx / 2 + kColumns) / kColumns * kColumns + 2 * kColumns;
+  return 6 * 3 * columns + 2 * columns + (4 * 2 * 3 + 7) * patches;
+}
+
+/// Rows [first, last) of a cloth of nx columns: who has moved so far that lists are stale, or out of its
+/// room, as docs/float-form.md "Motion".
+struct LeashLook {
+  std::size_t stride, nx, first, last;
+  const float* const* rows;               ///< by row
+  const float* relative_inverse_mass;     ///< by particle
+  const float *built, *near;              ///< vec4 a particle
+  const std::uint32_t* bounds;            ///< by particle: bits of a distance [m]
+  std::uint32_t no_bound;                 ///< bits of one without
+  float with_lists[3], with_contacts[3];  ///< the motion that all share [m]
+  float moved_squared_max, roam_max;      ///< [m², m]
+  float surface_limit, roam_share;        ///< [m]
+  std::uint32_t* left_over;               ///< room for the particles of these rows
+  std::uint32_t stale;                    ///< result
+};
+
+/// Sixteen boxes of the tree of patches: four by four patches of a leaf, or four by four nodes of the level
+/// below, row by row. What is near nothing has its low corner above the high one, both infinite.
+struct alignas(64) NearNode {
+  float low[3][kColumns], high[3][kColumns];
+};
+struct NearLevel {
+  NearNode* nodes;  ///< row by row
+  std::size_t across, down;
+};
+inline constexpr std::size_t kNearLevels = 8;
+
+/// Rows [first, last) of leaves of nx × ny patches: which patches have others near.
+struct NearLook {
+  std::size_t nx, ny, first, last;
+  const float* boxes;                                   ///< two vec4 a patch
+  float inverse_cell, cells_most, far_cells, distance;  ///< cells that a search goes beyond a box; [m]
+  int cells_across;                                     ///< as many of the grid along an axis are looked at
+  std::uint32_t overlooks, looks_far;  ///< whether nothing can be passed over; the bit to set
+  NearLevel levels[kNearLevels];
+  std::size_t level_count;
+  std::uint32_t* listed;  ///< by patch
+};
+
 /// Which variant of the sweep: what is absent costs nothing.
 enum SweepEffect : std::uint32_t { kDamping = 1, kShear = 2, kTwoApart = 4, kAir = 8, kContact = 16 };
 inline constexpr std::uint32_t kSweepVariants = 32;
@@ -172,6 +229,11 @@ struct Kernels {
   void (*air_kick)(const AirKick&);
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
+  std::size_t (*look_at_motion)(LeashLook&);       ///< returns how many particles are out of their room
+  std::size_t (*look_at_patches)(PatchLook&);      ///< returns how many cells it left over
+  void (*make_near_leaves)(const NearLook&);
+  void (*make_near_levels)(const NearLook&);  ///< once all leaves are made
+  void (*look_near)(const NearLook&);
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with

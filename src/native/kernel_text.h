@@ -50,6 +50,10 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 
 #include "native/air_text.h"
 #include "native/contact_text.h"
+#include "native/fold_text.h"
+#include "native/leash_text.h"
+#include "native/near_text.h"
+#include "native/patch_text.h"
 #include "native/solid_text.h"
 #include "native/surface_text.h"
 #include "native/tear_text.h"
@@ -186,8 +190,8 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
   next.x = own.x + splat(kick.drift) * next.v;
   if constexpr (kEffects & kContact)
     if (kick.drift > 0.0f) next = touch(acting.outside, kick, own.x, next);
-  if (half != nullptr) {
-    store_first(half, s, next.v);
+  if (half != nullptr) {  // who is let go within a frame goes on from the velocity that its pin had
+    store_first(half, s, *waiting.has_fixed ? select(w == Vec{}, own.v, next.v) : next.v);
     Vec3 further = splat(kick.predict_gain) * acceleration;
     if constexpr (kEffects & kAir) further = further - splat(kick.predict_loss) * next.v;
     next.v = next.v + further;
@@ -285,6 +289,11 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           air_kick,
           touch_solids,
           tear,
+          look_at_motion,
+          look_at_patches,
+          make_near_leaves,
+          make_near_levels,
+          look_near,
           xpbd_predict,
           xpbd_finish,
           {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,

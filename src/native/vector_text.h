@@ -21,28 +21,34 @@ WEFT_INLINE Vec select(Mask mask, Vec yes, Vec no) { return mask ? yes : no; }
 constexpr __mmask16 kAll = 0xffff;
 WEFT_INLINE Vec root(Vec v) { return (Vec)_mm512_maskz_sqrt_ps(kAll, (__m512)v); }
 WEFT_INLINE Vec larger(Vec a, Vec b) { return (Vec)_mm512_maskz_max_ps(kAll, (__m512)a, (__m512)b); }
-WEFT_INLINE bool any(Mask m) { return _mm512_movepi32_mask((__m512i)m) != 0; }
+WEFT_INLINE Vec smaller(Vec a, Vec b) { return (Vec)_mm512_maskz_min_ps(kAll, (__m512)a, (__m512)b); }
+WEFT_INLINE unsigned bits_of(Mask m) { return _mm512_movepi32_mask((__m512i)m); }
 #elif WEFT_LANES == 8
 WEFT_INLINE Vec root(Vec v) { return (Vec)_mm256_sqrt_ps((__m256)v); }
 WEFT_INLINE Vec larger(Vec a, Vec b) { return (Vec)_mm256_max_ps((__m256)a, (__m256)b); }
-WEFT_INLINE bool any(Mask m) { return _mm256_movemask_ps((__m256)m) != 0; }
+WEFT_INLINE Vec smaller(Vec a, Vec b) { return (Vec)_mm256_min_ps((__m256)a, (__m256)b); }
+WEFT_INLINE unsigned bits_of(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)m)); }
 #elif defined(WEFT_SSE)
 WEFT_INLINE Vec root(Vec v) { return (Vec)_mm_sqrt_ps((__m128)v); }
 WEFT_INLINE Vec larger(Vec a, Vec b) { return (Vec)_mm_max_ps((__m128)a, (__m128)b); }
-WEFT_INLINE bool any(Mask m) { return _mm_movemask_ps((__m128)m) != 0; }
+WEFT_INLINE Vec smaller(Vec a, Vec b) { return (Vec)_mm_min_ps((__m128)a, (__m128)b); }
+WEFT_INLINE unsigned bits_of(Mask m) { return static_cast<unsigned>(_mm_movemask_ps((__m128)m)); }
 #else
 WEFT_INLINE Vec root(Vec v) {
   for (int lane = 0; lane < kLanes; ++lane) v[lane] = __builtin_sqrtf(v[lane]);
   return v;
 }
-/// a where it is the larger, else b: also where a is no number.
+/// a where it is the larger, else b: also where a is no number. So smaller.
 WEFT_INLINE Vec larger(Vec a, Vec b) { return select(a > b, a, b); }
-WEFT_INLINE bool any(Mask m) {
-  int together = 0;
-  for (int lane = 0; lane < kLanes; ++lane) together |= m[lane];
-  return together != 0;
+WEFT_INLINE Vec smaller(Vec a, Vec b) { return select(a < b, a, b); }
+WEFT_INLINE unsigned bits_of(Mask m) {
+  unsigned bits = 0;
+  for (int lane = 0; lane < kLanes; ++lane) bits |= (m[lane] < 0 ? 1u : 0u) << lane;
+  return bits;
 }
 #endif
+/// Whether a lane is set; bits_of: the lanes that are, the first one lowest.
+WEFT_INLINE bool any(Mask m) { return bits_of(m) != 0; }
 
 /// The vector that begins one lane before `now`, `before` being the one to its left; then two lanes before.
 #if WEFT_LANES == 16
@@ -63,6 +69,39 @@ WEFT_INLINE Vec two_left(Vec before, Vec now) {
 WEFT_INLINE Vec one_left(Vec before, Vec now) { return __builtin_shufflevector(before, now, 3, 4, 5, 6); }
 WEFT_INLINE Vec two_left(Vec before, Vec now) { return __builtin_shufflevector(before, now, 2, 3, 4, 5); }
 #endif
+
+WEFT_INLINE void fill(float* from, const float* end, float value) {
+  for (; from != end; ++from) *from = value;
+}
+
+/// The largest whole number that is not above; of what is far from overflow.
+WEFT_INLINE Mask floored(Vec at) {
+  const Mask cut = __builtin_convertvector(at, Mask);
+  return cut + (__builtin_convertvector(cut, Vec) > at);
+}
+
+/// Every other lane of two vectors in a row, from the first and from the second on.
+#if WEFT_LANES == 16
+WEFT_INLINE Vec evens(Vec a, Vec b) {
+  return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+}
+WEFT_INLINE Vec odds(Vec a, Vec b) {
+  return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+}
+#elif WEFT_LANES == 8
+WEFT_INLINE Vec evens(Vec a, Vec b) { return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14); }
+WEFT_INLINE Vec odds(Vec a, Vec b) { return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15); }
+#else
+WEFT_INLINE Vec evens(Vec a, Vec b) { return __builtin_shufflevector(a, b, 0, 2, 4, 6); }
+WEFT_INLINE Vec odds(Vec a, Vec b) { return __builtin_shufflevector(a, b, 1, 3, 5, 7); }
+#endif
+
+/// The lanes' own numbers, from `first` on.
+WEFT_INLINE Mask lanes_from(int first) {
+  Mask lanes{};
+  for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = lane;
+  return lanes + first;
+}
 
 struct Vec3 {
   Vec x, y, z;

@@ -34,10 +34,10 @@ XpbdKind kind_of(SpringName spring) {
 Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan)
     : cloth_(cloth),
       kernels_(kernels),
-      moved_bytes_(cloth.ny() * 4 * cloth.sheet().stride * sizeof(float)),
+      moved_bytes_(cloth.rows() * 4 * cloth.sheet().stride * sizeof(float)),
       moved_(make_floats(moved_bytes_ / sizeof(float))),
       interior_(static_cast<float>(1.0 / model.interior_mass_kg)),
-      turns_(cloth.ny() / kRowsPerBandMin + 1) {
+      turns_(cloth.rows() / kRowsPerBandMin + 1) {
   const std::size_t stride = cloth.sheet().stride;
   move_.sheet = {stride, cloth.nx(), cloth.ny(), cloth.row(0), moved_.get()};
   move_.outside = cloth.outside();
@@ -52,7 +52,7 @@ Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan&
 }
 
 void Xpbd::take_masses() {
-  for (std::size_t j = 0; j < cloth_.ny(); ++j)
+  for (std::size_t j = 0; j < cloth_.rows(); ++j)
     for (std::size_t i = 0; i < cloth_.nx(); ++i)
       moved_[(4 * j + 3) * cloth_.sheet().stride + kColumns + i] =
           cloth_.relative_inverse_mass()[j * cloth_.nx() + i] * interior_;
@@ -80,40 +80,56 @@ Xpbd::Colour Xpbd::colour_of(const PlanStep& step, const Model& model) const {
   return colour;
 }
 
-/// Marks the turn as done and waits until both neighbours have done it too.
-void Xpbd::end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn) {
-  raise(turns_[own].done, turn);
-  if (own > 0) wait_for(turns_[own - 1].done, turn);
-  if (own + 1 < count) wait_for(turns_[own + 1].done, turn);
+Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) const {
+  Band band{.first = band_border(cloth_, own, count),
+            .last = band_border(cloth_, own + 1, count),
+            .own = own,
+            .count = count};
+  band.goes_on_above = band.first % cloth_.ny() != 0;
+  band.goes_on_below = band.last % cloth_.ny() != 0;
+  cloth_.in_each_cloth(band.first, band.last, [&](const ClothRows& rows) {
+    const std::size_t row = rows.cloth * cloth_.ny();
+    XpbdMove& part = band.parts.emplace_back(move_);
+    part.sheet.state = cloth_.row(row);
+    part.sheet.moved += row * 4 * part.sheet.stride;
+    part.first = rows.first;
+    part.last = rows.last;
+  });
+  return band;
+}
+
+/// Marks the turn as done and waits until both neighbours that share a cloth with this band have done it too.
+void Xpbd::end_turn(Band& band) {
+  raise(turns_[band.own].done, ++band.turn);
+  if (band.goes_on_above) wait_for(turns_[band.own - 1].done, band.turn);
+  if (band.goes_on_below) wait_for(turns_[band.own + 1].done, band.turn);
 }
 
 /// How far moving pins take what they hold of the band's rows.
-void Xpbd::move_pins(const XpbdMove& move) {
-  const std::size_t stride = move.sheet.stride, nx = move.sheet.nx;
-  const auto row_before = [&](const MovedParticle& held, std::size_t row) {
-    return held.particle / nx < row;
-  };
-  auto held = std::ranges::lower_bound(placed_, move.first * nx, {}, &MovedParticle::particle);
-  for (; held != placed_.end() && row_before(*held, move.last); ++held) {
-    const PinPlace& pin = move.kick->pins[held->pin];
+void Xpbd::move_pins(const Band& band, const Kick& kick) {
+  const std::size_t stride = move_.sheet.stride, nx = move_.sheet.nx;
+  auto held = std::ranges::lower_bound(placed_, band.first * nx, {}, &MovedParticle::particle);
+  for (; held != placed_.end() && held->particle / nx < band.last; ++held) {
+    const PinPlace& pin = kick.pins[held->pin];
     if (pin.released != 0) continue;
-    float* const moved = move.sheet.moved + held->particle / nx * 4 * stride + kColumns + held->particle % nx;
-    for (std::size_t axis = 0; axis < 3; ++axis) moved[axis * stride] = move.kick->drift * pin.velocity[axis];
+    float* const moved =
+        move_.sheet.moved + held->particle / nx * 4 * stride + kColumns + held->particle % nx;
+    for (std::size_t axis = 0; axis < 3; ++axis) moved[axis * stride] = kick.drift * pin.velocity[axis];
   }
 }
 
 /// Of the band's rows; anchors are fixed, so that nobody moves one meanwhile.
-void Xpbd::pull_tethers(const XpbdMove& move) {
-  const std::size_t stride = move.sheet.stride, nx = move.sheet.nx;
+void Xpbd::pull_tethers(const Band& band) {
+  const std::size_t stride = move_.sheet.stride, nx = move_.sheet.nx;
   struct Place {
     const float* start;
     float* moved;
   };
   const auto place = [&](std::size_t p) {
-    return Place{move.sheet.state + p / nx * 6 * stride + kColumns + p % nx,
-                 move.sheet.moved + p / nx * 4 * stride + kColumns + p % nx};
+    return Place{cloth_.row(p / nx) + kColumns + p % nx,
+                 move_.sheet.moved + p / nx * 4 * stride + kColumns + p % nx};
   };
-  for (std::size_t p = move.first * nx; p < move.last * nx; ++p) {
+  for (std::size_t p = band.first * nx; p < band.last * nx; ++p) {
     const shared::TetherOf<float>& tether = tethers_[p];
     const Place own = place(p), anchor = place(tether.anchor);
     if (own.moved[3 * stride] == 0.0f || tether.reach_m < 0.0f) continue;
@@ -130,47 +146,51 @@ void Xpbd::pull_tethers(const XpbdMove& move) {
   }
 }
 
-void Xpbd::sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks) {
-  XpbdMove move = move_;
-  move.first = own * cloth_.ny() / count;
-  move.last = (own + 1) * cloth_.ny() / count;
-  const bool reaches_on = own + 1 < count;
-  std::uint32_t turn = 0;
+void Xpbd::pull(const Colour& colour, const Kick& kick, Band& band) {
+  XpbdPull pull = colour.what;
+  pull.step = kick.drift;
+  for (const XpbdMove& part : band.parts) {
+    const bool reaches_on = band.goes_on_below && &part == &band.parts.back();
+    pull.sheet = part.sheet;
+    pull.first = part.first;
+    pull.last = reaches_on ? part.last - colour.reach : part.last;
+    colour.pull(pull);
+  }
+  if (colour.reach == 0 || band.count == 1) return;
+  end_turn(band);
+  if (band.goes_on_below) {
+    pull.first = pull.last;
+    pull.last = band.parts.back().last;
+    colour.pull(pull);
+  }
+  end_turn(band);
+}
+
+void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
   for (const Kick& kick : kicks) {
-    move.kick = &kick;
-    kernels_.xpbd_predict(move);
-    move_pins(move);
-    for (const Colour& colour : colours_) {
-      XpbdPull pull = colour.what;
-      pull.step = kick.drift;
-      pull.first = move.first;
-      pull.last = reaches_on ? move.last - colour.reach : move.last;
-      colour.pull(pull);
-      if (colour.reach == 0 || count == 1) continue;
-      end_turn(own, count, ++turn);
-      if (reaches_on) {
-        pull.first = pull.last;
-        pull.last = move.last;
-        colour.pull(pull);
-      }
-      end_turn(own, count, ++turn);
+    for (XpbdMove& part : band.parts) {
+      part.kick = &kick;
+      kernels_.xpbd_predict(part);
     }
+    move_pins(band, kick);
+    for (const Colour& colour : colours_) pull(colour, kick, band);
     if (!tethers_.empty()) {
       // Anchors may be any band's: all of them wait for all, before these are read and before they move on.
+      // Tethers stand beside one cloth alone, so that every band waits for both its neighbours.
       const auto end_turns = [&] {
-        for (std::uint32_t band = 1; band < count; ++band) end_turn(own, count, ++turn);
+        for (std::uint32_t other = 1; other < band.count; ++other) end_turn(band);
       };
       end_turns();
-      pull_tethers(move);
+      pull_tethers(band);
       end_turns();
     }
-    kernels_.xpbd_finish(move);
+    for (const XpbdMove& part : band.parts) kernels_.xpbd_finish(part);
   }
 }
 
 void Xpbd::sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks) {
   for (Turns& turns : turns_) turns.done.store(0, std::memory_order_relaxed);
-  crew.run(threads, [&](std::uint32_t own) { sweep_band(own, threads, kicks); });
+  crew.run(threads, [&](std::uint32_t own) { sweep_band(band_of(own, threads), kicks); });
 }
 
 }  // namespace weft::native

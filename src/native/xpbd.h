@@ -36,10 +36,19 @@ class Xpbd {
     std::atomic<std::uint32_t> done{0};
   };
   Colour colour_of(const PlanStep& step, const Model& model) const;
-  void sweep_band(std::uint32_t own, std::uint32_t count, std::span<const Kick> kicks);
-  void end_turn(std::uint32_t own, std::uint32_t count, std::uint32_t turn);
-  void move_pins(const XpbdMove& move);
-  void pull_tethers(const XpbdMove& move);
+  /// One thread's rows of all cloths, and of each cloth what it has.
+  struct Band {
+    std::size_t first, last;
+    bool goes_on_above, goes_on_below;  ///< its outer cloths, in the neighbours
+    std::uint32_t own, count, turn;     ///< which of how many; turns ended
+    std::vector<XpbdMove> parts;
+  };
+  Band band_of(std::uint32_t own, std::uint32_t count) const;
+  void sweep_band(Band band, std::span<const Kick> kicks);
+  void pull(const Colour& colour, const Kick& kick, Band& band);
+  void end_turn(Band& band);
+  void move_pins(const Band& band, const Kick& kick);
+  void pull_tethers(const Band& band);
 
   Cloth& cloth_;
   const Kernels& kernels_;

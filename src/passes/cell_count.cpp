@@ -2,10 +2,10 @@
 // the longest edge. Declaration and CPU mirror.
 #include <atomic>
 #include <bit>
-#include <limits>
 #include <utility>
 
 #include "passes/folds.h"
+#include "passes/lists.h"
 #include "passes/parallel.h"
 #include "passes/passes.h"
 #include "passes/patches.h"
@@ -50,24 +50,7 @@ class PatchLook {
     box[1] = glm::vec<4, T>(high, static_cast<T>(folds.bends()));
   }
 
-  /// Writes the box of a block, whose patches' boxes are known.
-  void look_at_block(std::uint32_t block, const std::vector<glm::vec<4, T>>& boxes, glm::vec<4, T>* box) {
-    V low(std::numeric_limits<T>::max()), high(-low);
-    patches_.each_of(patches_.patches_of(block), [&](std::uint32_t patch) {
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], boxes[2 * std::size_t{patch}][axis]);
-        high[axis] = std::max(high[axis], boxes[2 * std::size_t{patch} + 1][axis]);
-      }
-    });
-    box[0] = glm::vec<4, T>(low, T(0));
-    box[1] = glm::vec<4, T>(high, T(0));
-    const V wide = high - low;
-    if (view_.covered(box[0]) && view_.covered(box[1]))
-      widest_ = std::max(widest_, bits_of(std::max(std::max(wide.x, wide.y), wide.z)));
-  }
-
   std::uint32_t longest() const { return longest_; }
-  std::uint32_t widest() const { return widest_; }
 
  private:
   V at(std::uint32_t i, std::uint32_t j) const { return place_in(position_, view_.grid.index(i, j)); }
@@ -81,31 +64,18 @@ class PatchLook {
   const CollisionView<T>& view_;
   const PatchGrid& patches_;
   const std::vector<glm::vec<4, T>>& position_;
-  std::uint32_t longest_ = 0, widest_ = 0;
+  std::uint32_t longest_ = 0;
 };
-
-/// Where the particles are as the lists are made, and lists without entries.
-template <class T>
-void begin_lists(const Grid& grid, HostBuffers<T>& buffers) {
-  auto& built = buffers[BufferId::built_position];
-  built = std::as_const(buffers)[BufferId::position];
-  for (auto& x : built) x.w = T(0);
-  for (const BufferId id : {BufferId::pair_count, BufferId::surface_count})
-    buffers.words_of(id).assign(grid.count(), 0);
-  buffers.words_of(BufferId::surface_bound).assign(grid.count(), shared::kInfinity);
-}
 
 template <class T>
 void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   if (!lists_stale(buffers)) return;
   const CollisionView<T> view(context.model);
   const PatchGrid patches(context.model.grid);
-  begin_lists(context.model.grid, buffers);
   const auto& position = std::as_const(buffers)[BufferId::position];
+  make_room_for_lists(view.grid, buffers);
+  begin_lists(buffers, 0, view.grid.count());
   auto& boxes = buffers[BufferId::patches];
-  auto& blocks = buffers[BufferId::blocks];
-  boxes.resize(2 * std::size_t{patches.count()});
-  blocks.resize(2 * std::size_t{patches.block_count()});
   std::atomic<std::uint32_t> longest = 0;
   parallel_rows(patches.rows(), 2 * std::uint64_t{view.grid.nx}, [&](std::uint32_t begin, std::uint32_t end) {
     PatchLook<T> look(view, patches, position);
@@ -113,15 +83,11 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       look.look_at(p, &boxes[2 * std::size_t{p}]);
     raise_to(longest, look.longest());
   });
-  PatchLook<T> look(view, patches, position);
-  for (std::uint32_t b = 0; b < patches.block_count(); ++b)
-    look.look_at_block(b, boxes, &blocks[2 * std::size_t{b}]);
   auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kLongestEdge] = std::max(state[shared::kLongestEdge], longest.load());
-  state[shared::kWidestBlock] = std::max(state[shared::kWidestBlock], look.widest());
-  const PatchSearch<T> search(view, buffers);
-  auto& cells = buffers.words_of(BufferId::cells);
-  for (std::uint32_t b = 0; b < patches.block_count(); ++b) ++cells[view.bucket_of(search.cell_of(b))];
+  state[shared::kWidestBlock] =
+      std::max(state[shared::kWidestBlock], write_blocks(view, patches, buffers, 0, patches.block_count()));
+  count_blocks(view, patches, buffers);
 }
 
 }  // namespace

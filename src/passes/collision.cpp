@@ -97,6 +97,10 @@ double design_speed_m_s(const Model& model) {
   return speed_m_s;
 }
 
+bool shares_motion(const Model& model) {
+  return std::ranges::none_of(model.relative_inverse_mass, [](double w) { return w == 0.0; });
+}
+
 double pair_limit_m(double thickness_m, double flat_m) {
   const double turn = std::min(flat_m / thickness_m, 0.5 * std::numbers::pi);
   return std::min(thickness_m * std::sin(turn), kSqueezeMax * flat_m);
@@ -121,7 +125,6 @@ CollisionLayout collision_layout(const Model& model) {
   layout.cell_m = grid_cell_m(layout, a);
   layout.limit_last = last_row(thickness_m / a);
   layout.surface_capacity = surface_capacity(model.grid.count());
-  layout.carried = std::ranges::none_of(model.relative_inverse_mass, [](double w) { return w == 0.0; });
   layout.column_bits = static_cast<std::uint32_t>(std::bit_width(model.grid.nx - 1));
   if (layout.column_bits + static_cast<std::uint32_t>(std::bit_width(model.grid.rows() - 1)) > kPlaceBits)
     throw error(Exit::usage,
@@ -189,7 +192,7 @@ shared::CollisionOf<T> make_collision(const Model& model) {
   collision.bucket_mask = view.layout.buckets - 1;
   collision.capacity = view.layout.capacity;
   const bool in_the_way = model.scene.floor.has_value() || !model.scene.spheres.empty();
-  collision.carried = view.layout.carried ? (in_the_way ? 1 : 2) : 0;
+  collision.carried = shares_motion(model) ? (in_the_way ? 1 : 2) : 0;
   collision.surface_capacity = view.layout.surface_capacity;
   collision.surface_limit_m = view.surface_limit;
   collision.surface_limit_squared_m2 = view.surface_limit_squared;

@@ -22,7 +22,6 @@ struct CollisionLayout {
   std::uint32_t column_bits;  ///< of a place, for the column
   std::uint32_t buckets;      ///< a power of two, at least the number of blocks
   std::uint32_t capacity;     ///< entries a particle's list has room for
-  bool carried;               ///< nothing is pinned: the motion that all share is taken from everyone's
   double surface_limit_m;     ///< the distance that triangles and edges keep
   double surface_reach_m;     ///< nearer when the lists are made, and they are listed
   double stale_m;             ///< a particle that has moved so far makes the lists stale
@@ -38,6 +37,9 @@ struct CollisionLayout {
 /// @throws Error(Exit::usage) when the thickness is more than 10 cells of the cloth, or its particles' places
 ///         do not fit a list's entry.
 CollisionLayout collision_layout(const Model& model);
+
+/// Whether the motion that all share is taken from everyone's: nothing is pinned.
+bool shares_motion(const Model& model);
 
 /// The distance [m] that a pair keeps whose distance on the flat cloth is `flat_m`: the thickness, or less
 /// where the pair is so near on the cloth that a fold of that thickness brings it nearer (docs/physics.md).

@@ -75,6 +75,12 @@ class Folds {
     return bits;
   }
 
+  /// Whether the diagonal of the patch's k-th cell, or a triangle at it, is in reach of the cell's other two
+  /// corners or the edges that leave them: what decides where no planes part them.
+  bool diagonal_in_reach(std::uint32_t k) const {
+    return diagonal_in_reach(Place{2 + static_cast<int>(k % 2), 2 + static_cast<int>(k / 2)});
+  }
+
  private:
   using Place = std::array<int, 2>;  // column and row, the patch's first particle at (2, 2)
   static constexpr int kAcross = 6;
@@ -184,12 +190,17 @@ class FoldedCells {
     each_with({i, j}, {i, j}, [&](bool folded) { any |= folded; });
     return any;
   }
-  /// Whether all cells that have both of two particles beside each other are.
-  bool all_between(std::uint32_t p, std::uint32_t q) const {
-    bool all = true;
-    each_with({p % grid_.nx, p / grid_.nx}, {q % grid_.nx, q / grid_.nx},
-              [&](bool folded) { all &= folded; });
-    return all;
+  /// Of the four cells round a particle, row by row, a bit for each that is folded or that the cloth does not
+  /// have.
+  std::uint32_t around(std::uint32_t particle) const {
+    const std::uint32_t i = particle % grid_.nx, row = particle / grid_.nx, own = grid_.own_row(row);
+    std::uint32_t bits = 0;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t column = i + k % 2, down = own + k / 2;  // one more than the cell's
+      const bool there = column >= 1 && column < grid_.nx && down >= 1 && down < grid_.ny;
+      if (!there || is_folded(column - 1, down - 1, row - own)) bits |= 1u << k;
+    }
+    return bits;
   }
 
  private:
@@ -201,10 +212,12 @@ class FoldedCells {
     const auto [i0, i1] = cells(p[0], q[0], 0, grid_.nx);
     const auto [j0, j1] = cells(p[1], q[1], top, top + grid_.ny);
     for (std::uint32_t j = j0; j < j1; ++j)
-      for (std::uint32_t i = i0; i < i1; ++i) {
-        const std::uint32_t bit = (j - top) % 2 * 2 + i % 2;
-        visit((folds_in(boxes_, patches_.with(grid_.index(i, j))) >> bit & 1u) != 0);
-      }
+      for (std::uint32_t i = i0; i < i1; ++i) visit(is_folded(i, j - top, top));
+  }
+  /// Of the cell of column i and row `own` of the cloth that begins at row `top`.
+  bool is_folded(std::uint32_t i, std::uint32_t own, std::uint32_t top) const {
+    const std::uint32_t bit = own % 2 * 2 + i % 2;
+    return (folds_in(boxes_, patches_.with(grid_.index(i, top + own))) >> bit & 1u) != 0;
   }
   /// Of the cells from `first` to `end` − 1 particles along an axis, those with both, the end not included.
   static std::pair<std::uint32_t, std::uint32_t> cells(std::uint32_t p, std::uint32_t q, std::uint32_t first,

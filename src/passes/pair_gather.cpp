@@ -1,4 +1,5 @@
 // pair_gather: the pairs that may touch before the lists are made anew. Declaration and CPU mirror.
+#include <algorithm>
 #include <atomic>
 #include <utility>
 

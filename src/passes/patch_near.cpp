@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "passes/folds.h"
+#include "passes/lists.h"
 #include "passes/parallel.h"
 #include "passes/passes.h"
 
@@ -90,29 +91,6 @@ std::uint32_t looks_beside(const CollisionView<T>& view, const PatchGrid& patche
     for (std::uint32_t i = block.i0; i <= block.i1; ++i)
       if (folded.any_at(i, j)) bits |= shared::kLooksBeside << ((j - block.j0) * 2 + (i - block.i0));
   return bits;
-}
-
-/// Lists the particles that look for others, in the order of the patches.
-template <class T>
-void tell_lookers(const CollisionView<T>& view, const PatchGrid& patches, HostWords& buffers) {
-  const auto& listed = buffers.words_of(BufferId::patch_listed);
-  auto& lookers = buffers.words_of(BufferId::lookers);
-  lookers.resize(view.grid.count());
-  std::uint32_t count = 0;
-  for (std::uint32_t p = 0; p < patches.count(); ++p) {
-    if (listed[p] == 0) continue;
-    const PatchGrid::Block block = patches.block(p);
-    for (std::uint32_t j = block.j0; j <= block.j1; ++j)
-      for (std::uint32_t i = block.i0; i <= block.i1; ++i) {
-        const std::uint32_t looks = shared::kLooksFar | shared::kLooksBeside
-                                                            << ((j - block.j0) * 2 + (i - block.i0));
-        if ((listed[p] & looks) != 0) lookers[count++] = view.place_of(view.grid.index(i, j));
-      }
-  }
-  auto& state = buffers.words_of(BufferId::collision_state);
-  state[shared::kLookers] = count;
-  const std::uint32_t groups = (count + shared::kCollisionGroup - 1) / shared::kCollisionGroup;
-  state[shared::kNearGroups] = std::clamp(groups, 1u, shared::kLookGroupsMax);
 }
 
 /// On the device they come in any order.

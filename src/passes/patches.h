@@ -60,6 +60,14 @@ class PatchGrid {
            a / across / blocks_y() == b / across / blocks_y();
   }
 
+  /// Calls visit(particle) for those of the patch, row by row.
+  template <class Visit>
+  void each_particle(std::uint32_t patch, Visit&& visit) const {
+    const Block own = block(patch);
+    for (std::uint32_t j = own.j0; j <= own.j1; ++j)
+      for (std::uint32_t i = own.i0; i <= own.i1; ++i) visit(grid_.index(i, j));
+  }
+
   std::uint32_t with(std::uint32_t particle) const {
     const std::uint32_t row = particle / grid_.nx, own = grid_.own_row(row);
     return ((row - own) / grid_.ny * ny_ + own / 2) * nx_ + particle % grid_.nx / 2;
@@ -91,15 +99,6 @@ Range patch_domain(const Model& model);
 
 /// One invocation a block.
 Range block_domain(const Model& model);
-
-/// The eight particles round one on its cloth, row by row; nothing outside.
-inline std::optional<std::uint32_t> beside_at(const Grid& grid, std::uint32_t particle, std::uint32_t k) {
-  const std::uint32_t place = k < 4 ? k : k + 1, row = particle / grid.nx, own = grid.own_row(row);
-  const std::int64_t i = std::int64_t{particle % grid.nx} + place % 3 - 1,
-                     j = std::int64_t{own} + place / 3 - 1;
-  if (i < 0 || j < 0 || i >= std::int64_t{grid.nx} || j >= std::int64_t{grid.ny}) return std::nullopt;
-  return grid.index(static_cast<std::uint32_t>(i), row - own + static_cast<std::uint32_t>(j));
-}
 
 /// Whether they are the same or neighbours on one cloth.
 inline bool beside(const Grid& grid, std::uint32_t a, std::uint32_t b) {
@@ -157,6 +156,12 @@ class PatchSearch {
     return view_.cell_of({T(0.5) * (low + high), T(0)});
   }
 
+  /// How many cells beyond a box those are that have the middles of blocks with a particle within `search`.
+  T cells_beyond(T search) const {
+    const T far = search + kHalfRoom * widest_;
+    return std::min(far * view_.inverse_cell, static_cast<T>(shared::kCellsFromOriginMax));
+  }
+
   /// The largest gap between two boxes along an axis; less than 0 where they overlap.
   static T gap(const V& low_a, const V& high_a, const V& low_b, const V& high_b) {
     const V before = low_b - high_a, after = low_a - high_b;
@@ -171,8 +176,7 @@ class PatchSearch {
   /// @return whether those were all cells
   template <class Visit>
   bool around(const V& low, const V& high, T search, bool own_cell_only, Visit&& visit) const {
-    const T far = search + kHalfRoom * widest_;
-    const T far_cells = std::min(far * view_.inverse_cell, static_cast<T>(shared::kCellsFromOriginMax));
+    const T far_cells = cells_beyond(search);
     Cell first{}, last{};
     bool all = true;
     for (int axis = 0; axis < 3; ++axis) {

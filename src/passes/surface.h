@@ -40,9 +40,9 @@ glm::vec<3, T> nearest_in_triangle(const glm::vec<3, T>& p, const std::array<glm
           d6 = dot3(ac, cp);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
   if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const T vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
-    const T v = d1 / (d1 - d3);
+  const T vc = d1 * d4 - d3 * d2, along = d1 - d3;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0 && along > 0) {  // not where the two corners lie on each other
+    const T v = d1 / along;
     return {T(1) - v, v, 0};
   }
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};

@@ -212,12 +212,16 @@ void CpuSimulation<T>::run_block(Block block, std::uint32_t substep) {
 }
 
 template <class T>
-void CpuSimulation<T>::run_step(const PlanStep& step, std::uint32_t substep) {
-  const Clock::time_point began = Clock::now();
+MirrorContext CpuSimulation<T>::context_of(const PlanStep& step, std::uint32_t substep) const {
   const std::uint32_t row = plan_.table_row(step, substep);
   const KickDrift& schedule = row < frame_.rows.size() ? frame_.rows[row] : kNoRow;
-  Precision<T>::mirror (*step.pass)({model_, step.constants, schedule, row, step.item, budget_.allowed_m_s()},
-                                    buffers_);
+  return {model_, step.constants, schedule, row, step.item, budget_.allowed_m_s()};
+}
+
+template <class T>
+void CpuSimulation<T>::run_step(const PlanStep& step, std::uint32_t substep) {
+  const Clock::time_point began = Clock::now();
+  Precision<T>::mirror (*step.pass)(context_of(step, substep), buffers_);
   if (step.pass->swaps_state) {
     std::swap(buffers_[BufferId::position], buffers_[BufferId::position_next]);
     std::swap(buffers_[BufferId::velocity], buffers_[BufferId::velocity_next]);

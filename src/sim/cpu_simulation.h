@@ -59,6 +59,8 @@ class CpuSimulation : public HostSimulation {
 
   void run_block(Block block, std::uint32_t substep);
   void run_step(const PlanStep& step, std::uint32_t substep);
+  /// What a mirror of a step sees in a substep of the frame.
+  MirrorContext context_of(const PlanStep& step, std::uint32_t substep) const;
   /// Counts what has been computed of a step, and its time.
   void count(const PlanStep& step, std::uint32_t times, double ms);
   static double ms_since(Clock::time_point began) {

@@ -3,9 +3,11 @@
 #include "sim/native_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "native/engine.h"
+#include "passes/collision.h"
 #include "passes/passes.h"
 #include "sim/cpu_simulation.h"
 
@@ -54,10 +56,12 @@ class NativeSimulation final : public CpuSimulation<float> {
     bool swept = false;
     for (const PlanStep& step : plan_.steps) {
       if (step.block != block || (block == Block::substep && substep % step.interval != 0)) continue;
-      if (native::means_of(*step.pass) == native::Means::sweep) {
+      if (native::means_of(*step.pass, plan_) == native::Means::sweep) {
         if (!std::exchange(swept, true)) sweep(block, substep, 1);
-      } else if (native::means_of(*step.pass) == native::Means::effect) {
+      } else if (native::means_of(*step.pass, plan_) == native::Means::effect) {
         run_effect(step, substep);
+      } else if (native::means_of(*step.pass, plan_) == native::Means::look) {
+        run_look(step, substep);
       } else if (step.pass == &normals) {
         const Clock::time_point began = Clock::now();
         need_rows();
@@ -72,7 +76,7 @@ class NativeSimulation final : public CpuSimulation<float> {
   /// The steps of the block's sweep, in so many substeps.
   void sweep(Block block, std::uint32_t first, std::uint32_t count) {
     const auto swept = [&](const PlanStep& step) {
-      return step.block == block && native::means_of(*step.pass) == native::Means::sweep;
+      return step.block == block && native::means_of(*step.pass, plan_) == native::Means::sweep;
     };
     need_rows();
     if (contact_follows_) {  // it reads where the drift began
@@ -96,12 +100,37 @@ class NativeSimulation final : public CpuSimulation<float> {
     this->count(step, 1, ms_since(began));
   }
 
+  /// Whether a pass that takes its workgroups from a word of collision_state has any.
+  bool has_work(const PlanStep& step) const {
+    const auto word = step.pass->groups_word;
+    return !word || buffers_.words_of(BufferId::collision_state)[*word] != 0;
+  }
+
+  void run_look(const PlanStep& step, std::uint32_t substep) {
+    const Clock::time_point began = Clock::now();
+    if (has_work(step)) {
+      need_rows();
+      if (native::SelfCollision::reads_buffers(*step.pass)) need_buffers();
+      if (engine_.look(*step.pass, context_of(step, substep), buffers_)) buffers_current_ = false;
+    }
+    this->count(step, 1, ms_since(began));
+  }
+
   void run_mirror(const PlanStep& step, std::uint32_t substep) {
+    if (!has_work(step)) return this->count(step, 1, 0.0);
     need_buffers();
     const RowThreadsInUse threads(engine_.threads_for_mirrors());
     run_step(step, substep);
-    const bool moves = step.block == Block::substep || step.pass->swaps_state || step.pass == &pair_check;
-    if (moves) rows_current_ = false;  // what else ends a frame only looks at it
+    const bool moves = step.block == Block::substep || step.pass->swaps_state;
+    if (moves && !only_lists(*step.pass)) rows_current_ = false;  // what else ends a frame only looks at it
+  }
+
+  /// Whether a pass of self-collision makes lists or weighs contacts and moves nobody.
+  static bool only_lists(const Pass& pass) {
+    static constexpr std::array kOnlyLists{&cell_count,     &patch_near,   &cell_scan,
+                                           &cell_fill,      &cell_sort,    &pair_gather,
+                                           &surface_gather, &touch_weight, &surface_touch};
+    return std::ranges::count(kOnlyLists, &pass) > 0;
   }
 
   void model_changed() override {
@@ -135,8 +164,8 @@ class NativeSimulation final : public CpuSimulation<float> {
   }
 
   void look_at_plan() {
-    only_sweeps_ = std::ranges::all_of(plan_.steps, [](const PlanStep& step) {
-      return step.block != Block::substep || native::means_of(*step.pass) == native::Means::sweep;
+    only_sweeps_ = std::ranges::all_of(plan_.steps, [this](const PlanStep& step) {
+      return step.block != Block::substep || native::means_of(*step.pass, plan_) == native::Means::sweep;
     });
     contact_follows_ =
         std::ranges::any_of(plan_.steps, [](const PlanStep& step) { return step.pass == &mesh_contact; });

@@ -35,8 +35,8 @@ void expect_native_as_reference(const std::string& scene) {
 }
 
 TEST(NativeScenes, EndInTheBitsOfTheReference) {
-  for (const char* scene : {"1", "2", "3", "4", "5", "6", "boxes", "drape", "rail", "released", "ring",
-                            "slope", "storm", "tearing", "tethers"})
+  for (const char* scene : {"1", "2", "3", "4", "5", "6", "boxes", "drape", "layers", "rail", "released",
+                            "ring", "slope", "storm", "tearing", "tethers"})
     expect_native_as_reference(scene);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -54,17 +55,19 @@ bool apart(const Corners& a, const Corners& b) {
   return std::ranges::none_of(a, [&](std::uint32_t p) { return std::ranges::count(b, p) != 0; });
 }
 
-/// Calls visit(primitives, squared distance) for all that have no particle in common.
+/// Calls visit(primitives, squared distance) for all that have no particle in common. In double: the lists,
+/// in float, look at the same two from other corners.
 template <class Visit>
-void each_by_each(const Grid& grid, const Positions& x, Visit&& visit) {
+void each_by_each(const Grid& grid, const Positions& at, Visit&& visit) {
+  const std::vector<glm::dvec4> x(at.begin(), at.end());
   const auto triangles = mesh_of(grid, 3), edges = mesh_of(grid, 2);
   for (std::uint32_t p = 0; p < grid.count(); ++p)
     for (const Corners& t : triangles)
-      if (apart({p}, t)) visit({{p}, t}, particle_and_triangle<float>(x, {p, t[0], t[1], t[2]}).squared);
+      if (apart({p}, t)) visit({{p}, t}, particle_and_triangle<double>(x, {p, t[0], t[1], t[2]}).squared);
   for (auto a = edges.begin(); a != edges.end(); ++a)
     for (auto b = std::next(a); b != edges.end(); ++b)
       if (apart(*a, *b))
-        visit({*a, *b}, edge_and_edge<float>(x, {(*a)[0], (*a)[1], (*b)[0], (*b)[1]}).squared);
+        visit({*a, *b}, edge_and_edge<double>(x, {(*a)[0], (*a)[1], (*b)[0], (*b)[1]}).squared);
 }
 
 struct Lists {
@@ -105,8 +108,8 @@ Lists lists_of(const Model& model, const State& state, Positions& x) {
 }
 
 /// Whether `listed` is right for a squared distance: within rounding of the reach both are.
-bool is_right(bool listed, float squared, float reach_squared) {
-  return listed ? squared < reach_squared * 1.0001f : squared > reach_squared * 0.9999f;
+bool is_right(bool listed, double squared, float reach_squared) {
+  return listed ? squared < reach_squared * 1.0001 : squared > reach_squared * 0.9999;
 }
 
 /// Where lists are full, what is in them must be right.
@@ -117,7 +120,7 @@ bool expect_all_listed(const Model& model, const State& state, const std::string
   const CollisionView<float> view(model);
   const bool room = lists.dropped == 0;
   std::size_t wrong = 0;
-  each_by_each(model.grid, x, [&](const Primitives& pair, float squared) {
+  each_by_each(model.grid, x, [&](const Primitives& pair, double squared) {
     const auto at = lists.surfaces.find(pair);
     const bool listed = at != lists.surfaces.end();
     if (listed && at->second != 1) ++wrong;
@@ -225,6 +228,94 @@ TEST(SurfaceLists, HoldWhatACreaseAlongTheDiagonalsBringsNear) {
   EXPECT_FALSE(lists_of(model, folded_along_diagonals(model, 2.4, 0.0, 1), x).surfaces.empty());
 }
 
+/// A cloth of any size, thickness and number.
+Model any_model(std::mt19937_64& random) {
+  const auto whole = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+  const int nx = whole(2, 12), ny = whole(2, 12);
+  std::string more;
+  for (int k = whole(0, 2); k > 0; --k)
+    more += fmt::format("[[cloths]]\ncenter = [0.0, 0.0, {}]\n", 0.11 * k);
+  const double cells = std::exp(std::uniform_real_distribution(std::log(0.05), std::log(2.5))(random));
+  return build_model(parse_scene(fmt::format("[cloth]\nwidth = {}\nheight = {}\nresolution = {}\n{}"
+                                             "[self_collision]\nthickness = {}\n",
+                                             0.1 * (nx - 1), 0.1 * (ny - 1), nx, more, 0.1 * cells),
+                                 "any.toml")
+                         .scene);
+}
+
+/// Rolled up, folded about any line, in pleats, waved, flattened, stretched or thrown into a heap, with noise
+/// or none, and here and there a particle that is far from its own or lies on another.
+State any_state(const Model& model, std::mt19937_64& random) {
+  const auto real = [&](double least, double most) {
+    return std::uniform_real_distribution(least, most)(random);
+  };
+  const auto whole = [&](int least, int most) { return std::uniform_int_distribution(least, most)(random); };
+  const double a = model.grid.spacing_m;
+  State state = rolled(model, whole(0, 1) * real(0.0, 3.2), 0.0, 0);
+  if (whole(0, 2) == 0) {  // a fold, in the plane of the start
+    const double way = real(0.0, 6.3), angle = real(0.0, 3.14);
+    const glm::dvec3 across{std::cos(way), std::sin(way), 0.0}, along{-across.y, across.x, 0.0};
+    const glm::dvec3 line = state.position[model.grid.count() / 2] + real(-1.0, 1.0) * a * across;
+    for (glm::dvec3& x : state.position)
+      if (const double arm = glm::dot(x - line, across); arm > 0.0)
+        x += arm * ((std::cos(angle) - 1.0) * across + std::sin(angle) * glm::cross(along, across));
+  }
+  const glm::dvec3 wave{real(-40.0, 40.0), real(-40.0, 40.0), 0.0};
+  const double height_m = whole(0, 1) * real(0.0, 3.0) * a;
+  glm::dvec3 scale{1.0};
+  if (whole(0, 2) == 0)
+    for (int axis = 0; axis < 3; ++axis)
+      scale[axis] = std::array{0.0, 0.1, 0.5, 1.0, 3.0, 20.0}[static_cast<std::size_t>(whole(0, 5))];
+  const double heap = whole(0, 7) == 0 ? 0.0 : 1.0, noise_m = whole(0, 2) * real(0.0, 0.2) * a;
+  std::normal_distribution<double> normal;
+  for (glm::dvec3& x : state.position) {
+    x.z += height_m * std::sin(glm::dot(wave, x));
+    x = scale * heap * x +
+        (heap == 0.0 ? 2.0 * a : noise_m) * glm::dvec3(normal(random), normal(random), normal(random));
+  }
+  const auto any = [&] {
+    return static_cast<std::size_t>(whole(0, static_cast<int>(model.grid.count()) - 1));
+  };
+  for (int k = whole(-3, 3); k > 0; --k) state.position[any()] = state.position[any()];
+  for (int k = whole(-3, 2); k > 0; --k)
+    state.position[any()] += a * real(0.0, 30.0) * glm::dvec3(normal(random), normal(random), 1.0);
+  return state;
+}
+
+// Cloths of two columns and of many, of one row of patches and of odd ones, next to each other in memory;
+// with edges and triangles that have become points and lines.
+TEST(SurfaceLists, HoldWhatAnyShapeBringsNear) {
+  constexpr unsigned kShapes = 60;
+  unsigned whole = 0;
+  for (unsigned seed = 0; seed < kShapes; ++seed) {
+    std::mt19937_64 random(seed);
+    const Model model = any_model(random);
+    const Grid& grid = model.grid;
+    whole += expect_all_listed(model, any_state(model, random),
+                               fmt::format("seed {}, {} x {} x {}", seed, grid.nx, grid.ny, grid.cloths));
+  }
+  EXPECT_GE(whole, kShapes / 2) << "have room for all";
+}
+
+// Two corners of a triangle on each other leave an edge, and all three a point: its distance is that of the
+// edge's nearest point, and no number is lost in a division by the length that is gone.
+TEST(SurfaceLists, ATriangleWithCornersOnEachOtherIsAnEdge) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<float> real(-1.0f, 1.0f);
+  const auto any = [&] { return glm::vec3(real(random), real(random), real(random)); };
+  for (int k = 0; k < 1000; ++k) {
+    const bool point = k % 10 == 0;
+    const glm::vec3 p = any(), a = any(), b = point ? a : any(), e = b - a;
+    const float t = point ? 0.0f : std::clamp(glm::dot(p - a, e) / glm::dot(e, e), 0.0f, 1.0f);
+    const float expected = glm::distance(p, a + t * e);
+    for (const std::array<glm::vec3, 3>& corner : {std::array{a, a, b}, {a, b, a}, {b, a, a}}) {
+      const glm::vec3 weight = nearest_in_triangle(p, corner);
+      const glm::vec3 nearest = weight.x * corner[0] + weight.y * corner[1] + weight.z * corner[2];
+      ASSERT_NEAR(glm::distance(p, nearest), expected, 1e-5f) << k;
+    }
+  }
+}
+
 // Why Folds looks at diagonals by themselves: on the flat cloth all else that has no particle in common is at
 // least a cell apart.
 TEST(SurfaceLists, OnlyWhatMeetsAtADiagonalIsLessThanACellApart) {
@@ -248,8 +339,8 @@ TEST(SurfaceLists, OnlyWhatMeetsAtADiagonalIsLessThanACellApart) {
     }
   const auto cell_squared = static_cast<float>(grid.spacing_m * grid.spacing_m);
   std::size_t nearer = 0;
-  each_by_each(grid, x, [&](const Primitives& pair, float squared) {
-    if (squared > 0.99f * cell_squared) return;
+  each_by_each(grid, x, [&](const Primitives& pair, double squared) {
+    if (squared > 0.99 * cell_squared) return;
     ++nearer;
     EXPECT_TRUE(at_diagonals.contains(pair)) << "at " << std::sqrt(squared / cell_squared) << " cells";
   });

@@ -1,0 +1,247 @@
+// Hands rows of patches and of particles to the threads, and what the kernels leave over to the mirrors'
+// code.
+#include "native/self_collision.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "passes/carry.h"
+#include "passes/folds.h"
+#include "passes/leash.h"
+#include "passes/lists.h"
+#include "passes/passes.h"
+#include "passes/patches.h"
+
+namespace weft::native {
+namespace {
+
+constexpr std::array kLooking{&carry, &pair_check, &cell_count, &patch_near};
+
+}  // namespace
+
+SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model)
+    : cloth_(cloth),
+      kernels_(kernels),
+      view_(model),
+      left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
+  for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
+  if (model.grid.cloths == 1) make_room_for_tree();
+}
+
+void SelfCollision::make_room_for_tree() {
+  const PatchGrid patches(view_.grid);
+  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}));
+  std::size_t across = patches.nx(), down = patches.ny(), count = 0;
+  do {
+    across = (across + 3) / 4, down = (down + 3) / 4;
+    levels_.push_back({.nodes = nullptr, .across = across, .down = down});
+    count += across * down;
+  } while (across * down > 1);
+  nodes_.resize(count);
+  NearNode* place = nodes_.data();
+  for (NearLevel& level : levels_) level.nodes = std::exchange(place, place + level.across * level.down);
+}
+
+std::uint64_t SelfCollision::bytes() const {
+  return scratch_.size() * sizeof(float) + left_over_.size() * sizeof(std::uint32_t) +
+         nodes_.size() * sizeof(NearNode) + bends_.size();
+}
+
+/// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
+/// cloth's.
+bool SelfCollision::has(const Pass& pass, const Plan& plan) {
+  if (plan.sheet_rows != 0 && (&pass == &cell_count || &pass == &patch_near)) return false;
+  return std::ranges::count(kLooking, &pass) > 0;
+}
+
+bool SelfCollision::reads_buffers(const Pass& pass) { return &pass == &cell_count; }
+
+bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers,
+                        Crew& crew, std::uint32_t threads) {
+  if (&pass == &carry) carry_along(context.model, buffers);
+  if (&pass == &pair_check) return check_motion(context, buffers, crew, threads);
+  if (&pass == &cell_count && lists_stale(buffers)) count_cells(buffers, crew, threads);
+  if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
+  return false;
+}
+
+void SelfCollision::carry_along(const Model& model, HostBuffers<float>& buffers) const {
+  const std::size_t stride = cloth_.sheet().stride;
+  const auto vector_at = [&](std::uint32_t p, std::size_t first) {
+    const float* const at = rows_[p / cloth_.nx()] + kColumns + p % cloth_.nx() + first * stride;
+    return glm::vec3(at[0], at[stride], at[2 * stride]);
+  };
+  weft::carry_along(
+      model, buffers, [&](std::uint32_t p) { return vector_at(p, 0); },
+      [&](std::uint32_t p) { return vector_at(p, 3); });
+}
+
+bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+                                 std::uint32_t threads) {
+  bool stale = begin_check(context, view_, buffers), moved = false;
+  if (buffers.words_of(BufferId::collision_state)[shared::kListsArmed] != 0) {
+    buffers[BufferId::near_position].resize(view_.grid.count());
+    const Leash<float> leash(view_, buffers);
+    const glm::vec3 &b = leash.with_lists(), &n = leash.with_contacts();
+    std::vector<LeashLook> looks(threads, {.stride = cloth_.sheet().stride,
+                                           .nx = cloth_.nx(),
+                                           .rows = rows_.data(),
+                                           .relative_inverse_mass = cloth_.relative_inverse_mass().data(),
+                                           .built = &buffers[BufferId::built_position][0].x,
+                                           .near = &buffers[BufferId::near_position][0].x,
+                                           .bounds = buffers.words_of(BufferId::surface_bound).data(),
+                                           .no_bound = shared::kInfinity,
+                                           .with_lists = {b.x, b.y, b.z},
+                                           .with_contacts = {n.x, n.y, n.z},
+                                           .moved_squared_max = view_.moved_squared_max,
+                                           .roam_max = view_.roam_max,
+                                           .surface_limit = view_.surface_limit,
+                                           .roam_share = shared::kRoamShare});
+    std::vector<std::size_t> counts(threads);
+    crew.run(threads, [&](std::uint32_t own) {
+      LeashLook& look = looks[own];
+      look.first = own * cloth_.rows() / threads;
+      look.last = (own + std::size_t{1}) * cloth_.rows() / threads;
+      look.left_over = left_over_.data() + look.first * cloth_.nx();
+      counts[own] = kernels_.look_at_motion(look);
+    });
+    for (std::uint32_t own = 0; own < threads; ++own) {
+      stale |= looks[own].stale != 0;
+      moved |= hold_back({looks[own].left_over, counts[own]}, buffers);
+    }
+  }
+  end_check(view_, stale, buffers);
+  return moved;
+}
+
+/// With the mirror's own code: few are out of their room.
+bool SelfCollision::hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers) {
+  const Leash<float> leash(view_, buffers);
+  const std::size_t stride = cloth_.sheet().stride;
+  for (const std::uint32_t p : particles) {
+    const float* const at = rows_[p / cloth_.nx()] + kColumns + p % cloth_.nx();
+    glm::vec3 x(at[0], at[stride], at[2 * stride]), v(at[3 * stride], at[4 * stride], at[5 * stride]);
+    buffers.words_of(BufferId::collision_state)[shared::kHeldBack] += leash.keep(
+        x, v, glm::vec3(buffers[BufferId::built_position][p]), glm::vec3(buffers[BufferId::near_position][p]),
+        buffers.words_of(BufferId::surface_bound)[p]);
+    cloth_.place(p, {x.x, x.y, x.z}, {v.x, v.y, v.z});
+  }
+  return !particles.empty();
+}
+
+void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+  const PatchGrid patches(view_.grid);
+  make_room_for_lists(view_.grid, buffers);
+  auto& boxes = buffers[BufferId::patches];
+  const std::size_t floats = patch_look_floats(cloth_.nx());
+  scratch_.resize(std::max(scratch_.size(), threads * floats));
+  std::vector<PatchLook> looks(threads, {.stride = cloth_.sheet().stride,
+                                         .nx = cloth_.nx(),
+                                         .ny = cloth_.ny(),
+                                         .rows = rows_.data(),
+                                         .search_squared = view_.patch_search_squared,
+                                         .flat_min = view_.flat_min,
+                                         .boxes = &boxes[0].x});
+  crew.run(threads, [&](std::uint32_t own) {
+    PatchLook& look = looks[own];
+    look.first = std::size_t{own} * patches.rows() / threads;
+    look.last = (own + std::size_t{1}) * patches.rows() / threads;
+    look.scratch = scratch_.data() + own * floats;
+    look.left_over = left_over_.data() + 4 * look.first * patches.nx();
+    const std::size_t particles = view_.grid.count();
+    begin_lists(buffers, own * particles / threads, (own + std::size_t{1}) * particles / threads);
+    if (look.first == look.last) return;
+    look_closely({look.left_over, kernels_.look_at_patches(look)}, buffers);
+  });
+  auto& state = buffers.words_of(BufferId::collision_state);
+  for (const PatchLook& look : looks)
+    state[shared::kLongestEdge] = std::max(state[shared::kLongestEdge], look.longest);
+  std::vector<std::uint32_t> widest(threads);
+  crew.run(threads, [&](std::uint32_t own) {
+    const std::uint64_t count = patches.block_count();
+    widest[own] = write_blocks(view_, patches, buffers, static_cast<std::uint32_t>(own * count / threads),
+                               static_cast<std::uint32_t>((own + 1) * count / threads));
+  });
+  state[shared::kWidestBlock] = std::max(state[shared::kWidestBlock], *std::ranges::max_element(widest));
+  count_blocks(view_, patches, buffers);
+}
+
+/// Of cells that no three planes part, 4·patch + k each: those that are creased, with the mirror's own code.
+void SelfCollision::look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const {
+  const PatchGrid patches(view_.grid);
+  for (auto cell = cells.begin(); cell != cells.end();) {
+    const std::uint32_t patch = *cell / 4;
+    const Folds<float> folds(view_, patches, buffers[BufferId::position], patch);
+    bool creased = false;
+    for (; cell != cells.end() && *cell / 4 == patch; ++cell)
+      creased = creased || folds.diagonal_in_reach(*cell % 4);
+    if (creased) buffers[BufferId::patches][2 * std::size_t{patch} + 1].w += float{shared::kCreased};
+  }
+}
+
+void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+  const PatchGrid patches(view_.grid);
+  const std::size_t nx = patches.nx(), ny = patches.ny(), leaf_rows = levels_[0].down;
+  const auto& boxes = buffers[BufferId::patches];
+  auto& listed = buffers.words_of(BufferId::patch_listed);
+  listed.resize(patches.count());
+  const PatchSearch<float> search(view_, buffers);
+  NearLook all{.nx = nx,
+               .ny = ny,
+               .boxes = &boxes[0].x,
+               .inverse_cell = view_.inverse_cell,
+               .cells_most = shared::kCellsFromOriginMax,
+               .far_cells = search.cells_beyond(search.distance()),
+               .distance = search.distance(),
+               .cells_across = shared::kCellsAcrossMax,
+               .overlooks = search.distance() <= view_.patch_search ? 0u : 1u,
+               .looks_far = shared::kLooksFar,
+               .level_count = levels_.size(),
+               .listed = listed.data()};
+  std::ranges::copy(levels_, all.levels);
+  const auto part_of = [&](std::uint32_t own) {
+    NearLook part = all;
+    part.first = own * leaf_rows / threads;
+    part.last = (own + std::size_t{1}) * leaf_rows / threads;
+    return part;
+  };
+  crew.run(threads, [&](std::uint32_t own) {
+    const NearLook part = part_of(own);
+    kernels_.make_near_leaves(part);
+    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+      for (std::size_t x = 0; x < nx; ++x)
+        bends_[(y + 1) * (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (y * nx + x) + 1].w);
+  });
+  kernels_.make_near_levels(all);
+  crew.run(threads, [&](std::uint32_t own) {
+    const NearLook part = part_of(own);
+    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+      for (std::size_t x = 0; x < nx; ++x) listed[y * nx + x] = looks_beside(x, y);
+    kernels_.look_near(part);
+  });
+  tell_lookers(view_, patches, buffers);
+}
+
+/// The bits of the particles that are at a folded cell; of all of them where a diagonal nearby is creased.
+std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y) const {
+  const std::size_t across = (view_.grid.nx + std::size_t{1}) / 2 + 2;
+  const std::uint8_t *const above = bends_.data() + y * across + x, *const own = above + across,
+                            *const below = own + across;
+  const auto together = [](const std::uint8_t* row) { return std::uint32_t(row[0] | row[1] | row[2]); };
+  const std::uint32_t round = together(above) | together(own) | together(below);
+  if (round == 0) return 0;
+  if ((round & shared::kCreased) != 0) return shared::kCreaseBeside | 15u * shared::kLooksBeside;
+  // A patch's cells are numbered row by row; each particle is at four, of its own patch and those before it.
+  const std::uint32_t here = own[1], left = own[0], up = above[1], corner = above[0];
+  const std::uint32_t first = (here & 1u) | (left & 2u) | (up & 4u) | (corner & 8u);
+  const std::uint32_t right = (here & 3u) | (up & 12u), down = (here & 5u) | (left & 10u), last = here & 15u;
+  const bool has_right = 2 * x + 1 < view_.grid.nx, has_down = 2 * y + 1 < view_.grid.ny;
+  const auto bit = [](std::uint32_t folded, std::uint32_t k) {
+    return folded != 0 ? shared::kLooksBeside << k : 0u;
+  };
+  return bit(first, 0) | (has_right ? bit(right, 1) : 0u) | (has_down ? bit(down, 2) : 0u) |
+         (has_right && has_down ? bit(last, 3) : 0u);
+}
+
+}  // namespace weft::native

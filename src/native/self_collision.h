@@ -1,0 +1,49 @@
+// The passes of self-collision that have vector code: they read the cloth's rows and write its buffers.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "native/cloth.h"
+#include "native/crew.h"
+#include "passes/collision.h"
+#include "plan/plan.h"
+
+namespace weft::native {
+
+class SelfCollision {
+ public:
+  /// @param model  with [self_collision]; it and the cloth outlive this
+  SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model);
+
+  /// Whether the pass of the plan runs here.
+  static bool has(const Pass& pass, const Plan& plan);
+  /// Whether it reads positions in the buffers, too.
+  static bool reads_buffers(const Pass& pass);
+  /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
+  bool run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+           std::uint32_t threads);
+  std::uint64_t bytes() const;
+
+ private:
+  void carry_along(const Model& model, HostBuffers<float>& buffers) const;
+  bool check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
+                    std::uint32_t threads);
+  bool hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers);
+  void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  std::uint32_t looks_beside(std::size_t x, std::size_t y) const;
+  void make_room_for_tree();
+  void look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const;
+
+  Cloth& cloth_;
+  const Kernels& kernels_;
+  CollisionView<float> view_;
+  std::vector<const float*> rows_;  ///< by row of all cloths
+  std::vector<float> scratch_;      ///< of each thread
+  std::vector<std::uint32_t> left_over_;
+  std::vector<NearNode> nodes_;      ///< of all levels of the tree
+  std::vector<NearLevel> levels_;    ///< the leaves first
+  std::vector<std::uint8_t> bends_;  ///< by patch, one more on every side: as cell_count has said
+};
+
+}  // namespace weft::native

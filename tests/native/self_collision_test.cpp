@@ -1,0 +1,286 @@
+// The vector code of self-collision's passes leaves the buffers as the mirrors do, bit by bit: at every width
+// that this machine has, in any number of threads, on cloths of odd sizes in every shape.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+#include <utility>
+
+#include "model/measures.h"
+#include "native/engine.h"
+#include "native/features.h"
+#include "passes/passes.h"
+#include "passes/tables.h"
+#include "scene/reader.h"
+#include "solvers/solver.h"
+
+namespace weft {
+namespace {
+
+constexpr KickDrift kNoTime;
+
+Model sheet_model(int columns, int rows, double thickness_cells, const std::string& more = "") {
+  return build_model(
+      parse_scene(fmt::format("[cloth]\nwidth = {}\nheight = {}\nresolution = {}\n{}"
+                              "[self_collision]\nthickness = {}\n",
+                              0.1 * (columns - 1), 0.1 * (rows - 1), columns, more, 0.1 * thickness_cells),
+                  "sheet.toml")
+          .scene);
+}
+
+/// A shape of a cloth whose cells are 0.1 m: moves the particles of its start.
+struct Shape {
+  std::string name;
+  std::function<void(const Model&, std::mt19937_64&, std::vector<glm::dvec3>&)> apply;
+};
+
+void add_noise(double noise_m, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+  std::normal_distribution<double> normal(0.0, noise_m);
+  for (glm::dvec3& at : x) at += glm::dvec3(normal(random), normal(random), normal(random));
+}
+
+/// Rolled up along i by `turn` [rad] a cell, with noise.
+Shape rolled(double turn, double noise_cells) {
+  return {fmt::format("rolled by {}, noise {}", turn, noise_cells),
+          [=](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double a = model.grid.spacing_m;
+            for (std::uint32_t j = 0; j < model.grid.ny; ++j) {
+              double across = 0, up = 0;
+              for (std::uint32_t i = 0; i < model.grid.nx; ++i) {
+                glm::dvec3& at = x[model.grid.index(i, j)];
+                at = {across, at.y, at.z + up};
+                across += a * (std::cos(turn * i) + 0.1);
+                up += a * std::sin(turn * i);
+              }
+            }
+            add_noise(noise_cells * a, random, x);
+          }};
+}
+
+/// Creased along the cells' diagonals, alternately up and down, as sharp as a line of cells allows.
+Shape creased(double depth_cells, double noise_cells) {
+  return {fmt::format("creased by {}, noise {}", depth_cells, noise_cells),
+          [=](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double a = model.grid.spacing_m;
+            for (std::uint32_t p = 0; p < x.size(); ++p) {
+              const std::uint32_t line = p % model.grid.nx + p / model.grid.nx;
+              x[p].y += depth_cells * a * (line % 2);
+              x[p].x *= 0.7, x[p].z *= 0.7;
+            }
+            add_noise(noise_cells * a, random, x);
+          }};
+}
+
+Shape scattered() {
+  return {"scattered", [](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            std::uniform_real_distribution<double> any(-2.0 * model.grid.spacing_m,
+                                                       2.0 * model.grid.spacing_m);
+            for (glm::dvec3& at : x) at = {any(random), any(random), any(random)};
+          }};
+}
+
+/// Some of its coordinates are no numbers, infinite or beyond every cell of the grid.
+Shape unsound() {
+  return {"unsound", [](const Model&, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e9, -1e9, 3e38, 1e20};
+            std::uniform_int_distribution<std::size_t> which(0, 6), axis(0, 2), place(0, x.size() - 1);
+            for (std::size_t k = 0; k < 1 + x.size() / 40; ++k)
+              x[place(random)][static_cast<int>(axis(random))] = bad[which(random)];
+          }};
+}
+
+std::vector<Shape> shapes() {
+  return {rolled(0.0, 0.0),  rolled(0.0, 0.05),  rolled(0.2, 0.02), rolled(0.6, 0.08), rolled(2.2, 0.25),
+          creased(0.6, 0.0), creased(1.2, 0.05), scattered(),       unsound()};
+}
+
+/// The buffers as they are before the lists are made: what moves nobody has run.
+HostBuffers<float> buffers_of(const Model& model, const Plan& plan, const Shape& shape, std::uint64_t seed) {
+  State state = start_state(model);
+  std::mt19937_64 random(seed);
+  shape.apply(model, random, state.position);
+  HostBuffers<float> buffers;
+  size_buffers(plan, model, buffers);
+  load_state(model, state, buffers);
+  return buffers;
+}
+
+void run_mirror(const Pass& pass, const Model& model, HostBuffers<float>& buffers) {
+  const Constants constants = pass.constants(model);
+  pass.mirror_f32({.model = model, .constants = constants, .row = kNoTime}, buffers);
+}
+
+/// Which of several things that are no number a distance is, nobody says.
+std::uint32_t settled(std::uint32_t bits) {
+  const float value = std::bit_cast<float>(bits);
+  return std::isnan(value) ? std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN()) : bits;
+}
+
+void expect_same_buffers(HostBuffers<float> got, const HostBuffers<float>& expected) {
+  std::uint32_t& longest = got.words_of(BufferId::collision_state)[shared::kLongestEdge];
+  const std::uint32_t right_longest = expected.words_of(BufferId::collision_state)[shared::kLongestEdge];
+  if (settled(longest) == settled(right_longest)) longest = right_longest;
+  for (const BufferRow& row : kBufferRows) {
+    const auto &words = got.words_of(row.id), &right_words = expected.words_of(row.id);
+    ASSERT_EQ(words.size(), right_words.size()) << row.name;
+    for (std::size_t k = 0; k < words.size(); ++k)
+      ASSERT_EQ(words[k], right_words[k]) << row.name << " " << k;
+    const auto &vectors = got[row.id], &right_vectors = expected[row.id];
+    ASSERT_EQ(vectors.size(), right_vectors.size()) << row.name;
+    for (std::size_t k = 0; k < vectors.size(); ++k)
+      for (int axis = 0; axis < 4; ++axis)
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(vectors[k][axis]),
+                  std::bit_cast<std::uint32_t>(right_vectors[k][axis]))
+            << row.name << " " << k << " " << axis;
+  }
+}
+
+/// One engine for every width, in one thread, and two of the widest in several.
+struct NamedEngine {
+  std::string name;
+  std::unique_ptr<native::Engine> engine;
+};
+std::vector<NamedEngine> engines_for(const Model& model, const Plan& plan) {
+  std::vector<NamedEngine> engines;
+  const auto add = [&](const std::string& name, const native::EngineOptions& options) {
+    engines.push_back({name, std::make_unique<native::Engine>(model, plan, options)});
+  };
+  for (const native::Kernels* kernels : native::kernels_here())
+    add(kernels->name, {.threads = 1, .vector = kernels->name});
+  for (const std::uint32_t threads : {2u, 3u})
+    add(fmt::format("{} threads", threads), {.threads = threads, .vector = {}});
+  return engines;
+}
+
+struct Size {
+  int columns, rows;
+};
+constexpr Size kSizes[] = {{2, 2}, {3, 2}, {5, 7}, {16, 33}, {17, 18}, {33, 37}, {64, 49}};
+
+/// Runs the pass on every size and shape, after the mirrors of those before it, and calls look(buffers) with
+/// what the mirror leaves.
+void expect_as_mirror(const Pass& pass, const std::vector<const Pass*>& before_it,
+                      const std::function<void(const HostBuffers<float>&)>& look) {
+  std::uint64_t seed = 0;
+  for (const auto [columns, rows] : kSizes) {
+    const Model model = sheet_model(columns, rows, seed % 2 == 0 ? 0.3 : 0.9);
+    const Plan plan = compile_plan(model, find_solver("leapfrog"));
+    const std::vector<NamedEngine> engines = engines_for(model, plan);
+    for (const Shape& shape : shapes()) {
+      SCOPED_TRACE(fmt::format("{} x {}, {}", columns, rows, shape.name));
+      HostBuffers<float> before = buffers_of(model, plan, shape, ++seed);
+      for (const Pass* earlier : before_it) run_mirror(*earlier, model, before);
+      HostBuffers<float> expected = before;
+      run_mirror(pass, model, expected);
+      for (const auto& [name, engine] : engines) {
+        SCOPED_TRACE(name);
+        HostBuffers<float> got = before;
+        engine->load(got);
+        engine->look(pass, {.model = model, .constants = {}, .row = kNoTime}, got);
+        expect_same_buffers(std::move(got), expected);
+      }
+      look(expected);
+    }
+  }
+}
+
+TEST(NativeSelfCollision, CountsCellsAsTheMirror) {
+  std::size_t bends = 0, close = 0;
+  expect_as_mirror(cell_count, {&carry, &pair_check}, [&](const HostBuffers<float>& buffers) {
+    const auto& boxes = buffers[BufferId::patches];
+    for (std::size_t p = 0; p < boxes.size(); p += 2) {
+      bends += boxes[p + 1].w != 0.0f;
+      close += boxes[p].w == 0.0f;
+    }
+  });
+  EXPECT_GT(bends, 1000u);  // of some 13000 patches
+  EXPECT_GT(close, 1000u);
+}
+
+TEST(NativeSelfCollision, LooksNearAsTheMirror) {
+  std::size_t far = 0, beside = 0, neither = 0;
+  expect_as_mirror(patch_near, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},
+                   [&](const HostBuffers<float>& buffers) {
+                     for (const std::uint32_t looks : buffers.words_of(BufferId::patch_listed)) {
+                       far += (looks & shared::kLooksFar) != 0;
+                       beside += looks > shared::kLooksFar;
+                       neither += looks == 0;
+                     }
+                   });
+  for (const std::size_t count : {far, beside, neither}) EXPECT_GT(count, 1000u);
+}
+
+/// Lists as if they had been made and contacts looked at: particles have moved since by up to 1.5 of their
+/// room, some have a surface near, and one is no number.
+void pretend_lists(const Model& model, std::uint64_t seed, HostBuffers<float>& buffers) {
+  std::mt19937_64 random(seed);
+  const CollisionView<float> view(model);
+  std::uniform_real_distribution<float> share(-0.9f, 0.9f), bound(0.0f, 2.0f * view.surface_limit);
+  buffers.words_of(BufferId::collision_state)[shared::kListsArmed] = 1;
+  const auto elsewhere = [&](const glm::vec4& x) {
+    const float most = 0.7f * view.roam_max * std::abs(share(random));
+    return x + most * glm::vec4(share(random), share(random), share(random), 0.0f);
+  };
+  auto& position = buffers[BufferId::position];
+  for (const BufferId id : {BufferId::built_position, BufferId::near_position}) {
+    buffers[id] = position;
+    for (glm::vec4& x : buffers[id]) x = elsewhere(x);
+  }
+  for (glm::vec4& v : buffers[BufferId::velocity])
+    v = glm::vec4(share(random), share(random), share(random), 0.0f);
+  auto& bounds = buffers.words_of(BufferId::surface_bound);
+  bounds.resize(position.size());
+  for (std::uint32_t& bits : bounds)
+    bits = share(random) < 0.6f ? shared::kInfinity : std::bit_cast<std::uint32_t>(bound(random));
+  if (seed % 5 == 0) position[position.size() / 2].y = std::nanf("");
+}
+
+/// Positions and velocities of the engine's rows, in the buffers.
+void fetch_rows(native::Engine& engine, HostBuffers<float>& buffers) {
+  const auto floats = [&](BufferId id) { return &buffers[id][0].x; };
+  engine.write_surface({floats(BufferId::position), nullptr, floats(BufferId::velocity)});
+}
+
+TEST(NativeSelfCollision, ChecksMotionAsTheMirror) {
+  std::uint64_t seed = 0;
+  std::uint32_t held = 0, stale = 0, sound = 0;
+  for (const auto [columns, rows] : kSizes)
+    for (const char* pins : {"", "[[pins]]\nat = [0.0, 0.0]\n"}) {
+      const Model model = sheet_model(columns, rows, 0.4, pins);
+      const Plan plan = compile_plan(model, find_solver("leapfrog"));
+      const std::vector<NamedEngine> engines = engines_for(model, plan);
+      for (int state = 0; state < 3; ++state) {
+        SCOPED_TRACE(fmt::format("{} x {}, state {} {}", columns, rows, state, pins));
+        HostBuffers<float> before = buffers_of(model, plan, rolled(0.2, 0.05), ++seed);
+        pretend_lists(model, seed, before);
+        if (state == 2) before[BufferId::built_position] = before[BufferId::position];
+        HostBuffers<float> expected = before;
+        for (const Pass* pass : {&carry, &pair_check})
+          pass->mirror_f32({.model = model, .constants = {}, .row = kNoTime, .row_index = 1}, expected);
+        const auto& words = expected.words_of(BufferId::collision_state);
+        held += words[shared::kHeldBack];
+        (words[shared::kListGroups] != 0 ? stale : sound) += 1;
+        for (const auto& [name, engine] : engines) {
+          SCOPED_TRACE(name);
+          HostBuffers<float> got = before;
+          engine->load(got);
+          for (const Pass* pass : {&carry, &pair_check})
+            engine->look(*pass, {.model = model, .constants = {}, .row = kNoTime, .row_index = 1}, got);
+          fetch_rows(*engine, got);
+          expect_same_buffers(std::move(got), expected);
+        }
+      }
+    }
+  EXPECT_GT(held, 500u);
+  EXPECT_GT(stale, 3u);
+  EXPECT_GT(sound, 3u);
+}
+
+}  // namespace
+}  // namespace weft
