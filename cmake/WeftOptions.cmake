@@ -24,6 +24,11 @@ if(WEFT_SANITIZE)
   target_link_options(weft_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+if(WEFT_SANITIZE_THREADS)
+  target_compile_options(weft_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(weft_options INTERFACE -fsanitize=thread)
+endif()
+
 if(WEFT_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
     message(FATAL_ERROR "WEFT_FUZZ needs clang's libFuzzer: configure with -DCMAKE_CXX_COMPILER=clang++")

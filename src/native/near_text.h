@@ -102,15 +102,23 @@ WEFT_INLINE NearLeaf open_leaf(const NearLook& look, Index x, Index y) {
   return leaf;
 }
 
+/// A box where its corners lie.
+struct BoxAt {
+  const float *low[3], *high[3];
+};
+WEFT_INLINE BoxAt box_in(const NearNode& node, Index k) {
+  return {{node.low[0] + k, node.low[1] + k, node.low[2] + k},
+          {node.high[0] + k, node.high[1] + k, node.high[2] + k}};
+}
+
 /// Of sixteen boxes, those less than the distance away from one along every axis.
-WEFT_INLINE unsigned near_boxes(const NearNode& node, const float* const (&low)[3],
-                                const float* const (&high)[3], Vec distance) {
+WEFT_INLINE unsigned near_boxes(const NearNode& node, const BoxAt& box, Vec distance) {
   unsigned found = 0;
   for (Index base = 0; base < kColumns; base += kLanes) {
     Vec gap = splat(-__builtin_inff());
     for (int axis = 0; axis < 3; ++axis)
-      gap = larger(larger(load(node.low[axis] + base) - splat(*high[axis]),
-                          splat(*low[axis]) - load(node.high[axis] + base)),
+      gap = larger(larger(load(node.low[axis] + base) - splat(*box.high[axis]),
+                          splat(*box.low[axis]) - load(node.high[axis] + base)),
                    gap);
     found |= bits_of(gap < distance) << base;
   }
@@ -128,16 +136,16 @@ WEFT_INLINE unsigned beside_in(Index x, Index y, Index i, Index j) {
          ((rows & 1u) * 0xfu | (rows & 2u) * 0x78u | (rows & 4u) * 0x3c0u | (rows & 8u) * 0x1e00u);
 }
 
-/// The open patches of a leaf against those of leaf (x, y).
-WEFT_INLINE void look_at_leaf(const NearLook& look, NearLeaf& leaf, Index x, Index y) {
+/// The open patches of a leaf against those of leaf (x, y): first against the box of them all.
+WEFT_INLINE void look_at_leaf(const NearLook& look, NearLeaf& leaf, Index x, Index y, const BoxAt& all) {
   const NearLevel& level = look.levels[0];
   const NearNode &own = level.nodes[leaf.y * level.across + leaf.x],
                  &other = level.nodes[y * level.across + x];
   const bool adjacent = x + 1 >= leaf.x && x <= leaf.x + 1 && y + 1 >= leaf.y && y <= leaf.y + 1;
-  for (unsigned open = leaf.open; open != 0; open &= open - 1) {
+  const Vec distance = splat(look.distance);
+  for (unsigned open = leaf.open & near_boxes(own, all, distance); open != 0; open &= open - 1) {
     const auto k = static_cast<Index>(__builtin_ctz(open));
-    unsigned found = near_boxes(other, {own.low[0] + k, own.low[1] + k, own.low[2] + k},
-                                {own.high[0] + k, own.high[1] + k, own.high[2] + k}, splat(look.distance));
+    unsigned found = near_boxes(other, box_in(own, k), distance);
     if (found != 0 && adjacent) found &= ~beside_in(x, y, 4 * leaf.x + k % 4, 4 * leaf.y + k / 4);
     if (found != 0) leaf.far |= 1u << k;
   }
@@ -149,22 +157,22 @@ WEFT_INLINE void search_leaf(const NearLook& look, NearLeaf& leaf) {
   struct Place {
     Index level, x, y;
   };
+  const BoxAt own{{leaf.low, leaf.low + 1, leaf.low + 2}, {leaf.high, leaf.high + 1, leaf.high + 2}};
+  if (look.level_count == 1) return look_at_leaf(look, leaf, 0, 0, own);
   Place waiting[kColumns * kNearLevels];
   Index count = 0;
   waiting[count++] = {look.level_count - 1, 0, 0};
   while (count > 0 && leaf.open != 0) {
     const Place at = waiting[--count];
-    if (at.level == 0) {
-      look_at_leaf(look, leaf, at.x, at.y);
-      continue;
-    }
     const NearLevel& level = look.levels[at.level];
-    unsigned found =
-        near_boxes(level.nodes[at.y * level.across + at.x], {leaf.low, leaf.low + 1, leaf.low + 2},
-                   {leaf.high, leaf.high + 1, leaf.high + 2}, splat(look.distance));
-    for (; found != 0; found &= found - 1) {
+    const NearNode& node = level.nodes[at.y * level.across + at.x];
+    for (unsigned found = near_boxes(node, own, splat(look.distance)); found != 0; found &= found - 1) {
       const auto k = static_cast<Index>(__builtin_ctz(found));
-      waiting[count++] = {at.level - 1, 4 * at.x + k % 4, 4 * at.y + k / 4};
+      const Index x = 4 * at.x + k % 4, y = 4 * at.y + k / 4;
+      if (at.level == 1)
+        look_at_leaf(look, leaf, x, y, box_in(node, k));
+      else
+        waiting[count++] = {at.level - 1, x, y};
     }
   }
 }

@@ -24,6 +24,7 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
     : cloth_(cloth),
       kernels_(kernels),
       view_(model),
+      shares_motion_(shares_motion(model)),
       left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
   for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
   if (model.grid.cloths == 1) make_room_for_tree();
@@ -73,7 +74,7 @@ void SelfCollision::carry_along(const Model& model, HostBuffers<float>& buffers)
     return glm::vec3(at[0], at[stride], at[2 * stride]);
   };
   weft::carry_along(
-      model, buffers, [&](std::uint32_t p) { return vector_at(p, 0); },
+      model, shares_motion_, buffers, [&](std::uint32_t p) { return vector_at(p, 0); },
       [&](std::uint32_t p) { return vector_at(p, 3); });
 }
 

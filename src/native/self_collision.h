@@ -38,6 +38,7 @@ class SelfCollision {
   Cloth& cloth_;
   const Kernels& kernels_;
   CollisionView<float> view_;
+  bool shares_motion_;
   std::vector<const float*> rows_;  ///< by row of all cloths
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> left_over_;

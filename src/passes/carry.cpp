@@ -13,7 +13,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   const auto &position = std::as_const(buffers)[BufferId::position],
              &velocity = std::as_const(buffers)[BufferId::velocity];
   carry_along(
-      context.model, buffers, [&](std::uint32_t p) { return glm::vec<3, T>(position[p]); },
+      context.model, shares_motion(context.model), buffers,
+      [&](std::uint32_t p) { return glm::vec<3, T>(position[p]); },
       [&](std::uint32_t p) { return glm::vec<3, T>(velocity[p]); });
 }
 

@@ -19,13 +19,15 @@ glm::vec<4, T> mean_of_samples(const Grid& grid, At&& at) {
 }
 
 /// Writes `carrier`.
+/// @param is_shared         as shares_motion has it
 /// @param place, velocity  of a particle, as vectors of three [m, m/s]
 template <class T, class Place, class Velocity>
-void carry_along(const Model& model, HostBuffers<T>& buffers, Place&& place, Velocity&& velocity) {
+void carry_along(const Model& model, bool is_shared, HostBuffers<T>& buffers, Place&& place,
+                 Velocity&& velocity) {
   const Grid& grid = model.grid;
   auto& carrier = buffers[BufferId::carrier];
   carrier.assign(shared::kCarrierRows, glm::vec<4, T>(T(0)));
-  if (!shares_motion(model)) return;
+  if (!is_shared) return;
   const auto since = [&](BufferId from) {
     buffers[from].resize(grid.count());
     return mean_of_samples<T>(grid,

@@ -149,6 +149,7 @@ class HostDrawn final : public HostDrawnSimulation {
   double ready_time_s_ = 0.0, shown_time_s_ = 0.0, part_ms_ = 0.0;
   bool under_way_ = false;                       ///< a frame is begun and not done
   double frame_start_s_ = 0.0, frame_ms_ = 0.0;  ///< of that one
+  double told_ms_ = 0.0;                         ///< of those milliseconds, what part_ms() has told
   bool running_ = false;                         ///< the thread may compute
   bool computing_ = false;                       ///< it does
   bool ended_ = false;                           ///< a frame is done that continue_frame() has not told of
@@ -218,13 +219,12 @@ void HostDrawn::begin_frame(double frame_s, std::uint32_t substeps) {
   const auto stopped = stop();
   simulation_->begin_frame(frame_s, substeps);
   frame_start_s_ = simulation_->time_s();
-  frame_ms_ = 0.0;
+  frame_ms_ = told_ms_ = 0.0;
   under_way_ = true;
   ended_ = by_itself_ = false;
 }
 
 bool HostDrawn::continue_frame() {
-  const Clock::time_point began = Clock::now();
   Lock lock(mutex_);
   by_itself_ = false;
   if (under_way_ && !running_) {
@@ -232,7 +232,8 @@ bool HostDrawn::continue_frame() {
     changed_.notify_all();
   }
   changed_.wait_for(lock, kPatience, [&] { return !under_way_ || failure_; });
-  part_ms_ = milliseconds_since(began);
+  // What the thread did since the last call counts, too: a part may outlast the patience.
+  part_ms_ = frame_ms_ - std::exchange(told_ms_, frame_ms_);
   rethrow();
   if (under_way_) return true;
   ended_ = false;
@@ -263,7 +264,7 @@ FramesDone HostDrawn::take_done() {
   done.under_way = under_way_;
   if (!under_way_) return done;
   done.part_s = facts_.time_s - frame_start_s_;
-  done.part_ms = frame_ms_;
+  done.part_ms = told_ms_ = frame_ms_;
   return done;
 }
 
@@ -312,7 +313,7 @@ void HostDrawn::compute_part(Lock& lock) {
   const bool begins = !std::exchange(under_way_, true);
   if (begins) {
     frame_start_s_ = facts_.time_s;
-    frame_ms_ = 0.0;
+    frame_ms_ = told_ms_ = 0.0;
     --left_;
     due_ += duration_of(next_.period_s);
   }

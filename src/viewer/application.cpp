@@ -171,6 +171,7 @@ void Application::run() {
   }
   if (!options_.screenshot.empty()) {
     view_.screenshot = true;
+    attempt([&] { running_.settle(); });  // a change that is refused now takes no picture away
     running_.settle();
     gui_.begin_frame();
     panels_.draw(running_, running_.scene(), facts(), view_);

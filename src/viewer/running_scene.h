@@ -211,7 +211,7 @@ class RunningScene {
   bool paused_ = false, mid_frame_ = false;
   bool more_parts_ = false;      ///< follow the one under way in its frame
   bool part_under_way_ = false;  ///< the device computes it, and nobody waits
-  double part_s_ = 0.0;          ///< simulated, of that one
+  double noted_s_ = 0.0;         ///< simulated time up to which a frame's parts are told of
   double spent_ms_ = 0.0;        ///< on parts since a picture could be made
   bool by_itself_ = false;       ///< the simulation's thread begins frames that are owed
   std::string divergence_text_;

@@ -27,14 +27,13 @@ void RunningScene::begin_piece() {
   const double piece_s = frame_s / pieces_;
   if (hand_.holds()) simulation_->place(hand_.move(piece_s));
   simulation_->begin_frame(piece_s, (substeps + pieces_ - 1) / pieces_);
+  noted_s_ = simulation_->time_s();
   mid_frame_ = true;
 }
 
 void RunningScene::begin_part() {
   if (!mid_frame_) begin_piece();
-  const double before_s = simulation_->time_s();
   more_parts_ = simulation_->continue_frame();
-  part_s_ = simulation_->time_s() - before_s;
   part_under_way_ = true;
 }
 
@@ -51,7 +50,8 @@ bool RunningScene::end_part(double wait_s) {
 /// What has come of it: progress, the frame's end, what the device found.
 void RunningScene::note_part() {
   if (!mid_frame_ && on_host_ != nullptr) frame_computed_ms_ += on_host_->latest_frame_ms();
-  note_progress(part_s_, simulation_->part_ms());
+  const double now_s = simulation_->time_s();
+  note_progress(now_s - std::exchange(noted_s_, now_s), simulation_->part_ms());
   if (!mid_frame_) stop_if_diverged();
   if (diverged() || mid_frame_ || --pieces_left_ > 0) return;
   watch_end();
@@ -191,6 +191,7 @@ void RunningScene::take_in(const FramesDone& done) {
 void RunningScene::rest() {
   if (!std::exchange(by_itself_, false)) return;
   take_in(on_host_->stay());
+  noted_s_ = simulation_->time_s();
   on_host_->show_latest(0.0);
 }
 

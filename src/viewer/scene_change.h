@@ -30,6 +30,8 @@ class SceneChange {
   /// @param next   the scene as it is asked for
   /// @param whole  the same with the pins made by hand
   SceneChange(Scene next, Scene whole);
+  SceneChange(const SceneChange&) = delete;  // the thread works on this one
+  SceneChange& operator=(const SceneChange&) = delete;
   /// Once the model is there: what computes it. Makers may be called on any thread.
   void make_simulation(Maker maker);
   /// Once that is there: the state, as it is now on `from`, which must stay as it is meanwhile.

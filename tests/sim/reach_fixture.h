@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "model/measures.h"
 #include "scenes.h"
 #include "shared/reach.h"
+#include "sim/simulation.h"
 
 namespace weft::test {
 
@@ -59,6 +61,32 @@ inline const std::string kTearingPin =
     "[[pins]]\nat = [1, 1]\nkeys = [{ time = 0, offset = [0, 0, 0] }, { time = 0.05, offset = [0.5, 0, 0] "
     "}]\n"
     "[tearing]\nstrain = 0.2\n";
+/// Comes down on the cloth with two others near it, which kernels look at late.
+inline const std::string kTearingBalls =
+    "[[spheres]]\ncenter = [0.1, 1.4, 0]\nradius = 0.12\nvelocity = [0, -20, 0]\n[[spheres]]\ncenter = "
+    "[-0.3, 0.6, 0.1]\nradius = 0.1\n[[spheres]]\ncenter = [0.4, 0.9, 0.7]\nradius = 0.1\n"
+    "[tearing]\nstrain = 0.15\n";
+
+inline void run_frames(Simulation& simulation, int frames) {
+  for (int f = 0; f < frames; ++f)
+    simulation.advance(simulation.model().scene.solver.frame_s, simulation.plan().substeps);
+}
+
+/// Every word of the state after a run that tears, a start anew, the torn state again, and the whole one.
+inline std::vector<State> written_over(Simulation& simulation) {
+  std::vector<State> seen;
+  const State start = start_state(simulation.model());
+  const auto go_on = [&](int frames) {
+    run_frames(simulation, frames);
+    seen.push_back(simulation.read());
+  };
+  go_on(4);
+  for (const State& state : {start, seen.front(), start}) {
+    simulation.write(state);
+    go_on(1);
+  }
+  return seen;
+}
 
 inline std::vector<ReachCase> reach_cases() {
   return {

