@@ -20,8 +20,9 @@ constexpr std::uint32_t kIntervalMax = 16;
 constexpr double kSurfaceLimit = 0.25;  // cells: what surfaces keep of a thickness that is more
 constexpr double kSurfaceReach =
     0.55;  // cells; less than the 0.707 from a particle to a triangle of a flat cloth
-constexpr double kRecoverShare = 0.25;  // of what contacts overlap, what they part by until the next look
-constexpr double kStaleShare = 0.35;    // of the skin: the rest is for motion until the next look
+constexpr double kRecoverShare = 0.25;    // of what contacts overlap, what they part by until the next look
+constexpr double kStaleShare = 0.5;       // of the skin: two that far nearer each other may not touch yet
+constexpr double kStaleRoamShare = 0.55;  // of roam_max at most: the rest is for motion until the next look
 constexpr double kPileLayers = 20;  // that contacts hold, pressed to three quarters of the distance they keep
 constexpr std::uint32_t kPlaceBits = 26;
 constexpr double kPatchEdge = 1.1;  // of its length on the cloth: an edge that is no longer than expected
@@ -120,8 +121,8 @@ CollisionLayout collision_layout(const Model& model) {
   layout.surface_reach_m = kSurfaceReach * a;
   layout.deep_m = 0.5 * layout.surface_limit_m;
   layout.skin_m = layout.surface_reach_m - layout.surface_limit_m;
-  layout.stale_m = kStaleShare * layout.skin_m;
   layout.roam_max_m = 0.499 * layout.surface_reach_m;
+  layout.stale_m = std::min(kStaleShare * layout.skin_m, kStaleRoamShare * layout.roam_max_m);
   layout.cell_m = grid_cell_m(layout, a);
   layout.limit_last = last_row(thickness_m / a);
   layout.surface_capacity = surface_capacity(model.grid.count());
