@@ -39,5 +39,41 @@ TEST(Crossings, know_the_side_of_a_plane_exactly) {
   EXPECT_EQ(side_of_plane(d, e, f, g), side_of_plane_exact(d, e, f, g));
 }
 
+// Whole numbers, whose determinant 128 bits hold: as they are, where differences are exact, and with a far
+// fourth point that makes them round. A third of the points lie in a plane.
+TEST(Crossings, agree_with_whole_numbers_about_the_side) {
+  __extension__ using Wide = __int128;
+  std::uint64_t state = 7;
+  const auto random = [&](std::int64_t most) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::int64_t>(state >> 33) % (2 * most + 1) - most;
+  };
+  int flat = 0;
+  for (int trial = 0; trial < 30'000; ++trial) {
+    std::int64_t p[4][3];
+    for (auto& point : p)
+      for (auto& x : point) x = random(1 << 20);
+    if (trial % 3 == 0)  // p3 = p0 + m (p1 − p0) + n (p2 − p0)
+      for (int k = 0, m = static_cast<int>(random(3)); k < 3; ++k)
+        p[3][k] = p[0][k] + m * (p[1][k] - p[0][k]) + (trial % 5) * (p[2][k] - p[0][k]);
+    if (trial % 4 == 0) p[3][0] = std::int64_t{1} << 60;
+    if (trial % 14 == 0) ++p[3][1];
+    const auto far = [&](int q, int k) { return Wide{p[q][k]} - p[3][k]; };
+    Wide det = 0;
+    for (int k = 0; k < 3; ++k)
+      det +=
+          far(0, k) * (far(1, (k + 1) % 3) * far(2, (k + 2) % 3) - far(1, (k + 2) % 3) * far(2, (k + 1) % 3));
+    const auto place = [&](int q) {
+      return glm::dvec3(static_cast<double>(p[q][0]), static_cast<double>(p[q][1]),
+                        static_cast<double>(p[q][2]));
+    };
+    const int expected = det > 0 ? 1 : det < 0 ? -1 : 0;
+    flat += expected == 0;
+    ASSERT_EQ(side_of_plane_exact(place(0), place(1), place(2), place(3)), expected) << trial;
+    ASSERT_EQ(side_of_plane(place(0), place(1), place(2), place(3)), expected) << trial;
+  }
+  EXPECT_GT(flat, 1000);
+}
+
 }  // namespace
 }  // namespace weft::testing_support
