@@ -80,9 +80,9 @@ std::vector<std::uint32_t> pinned(const Model& model, double time_s) {
 
 /// x and y on the flat cloth, and which cloth, which is farther from any other than a pin reaches.
 glm::dvec3 fraction(const Grid& grid, std::uint32_t particle) {
-  const std::uint32_t row = particle / grid.nx;
+  const std::uint32_t row = particle / grid.nx, cloth = row / grid.ny;
   return {static_cast<double>(particle % grid.nx) / (grid.nx - 1),
-          static_cast<double>(grid.own_row(row)) / (grid.ny - 1), 4.0 * (row / grid.ny)};
+          static_cast<double>(grid.own_row(row)) / (grid.ny - 1), 4.0 * cloth};
 }
 
 /// The pinned particle of `from` nearest on the flat cloth, if one is within a cell of either grid (or the

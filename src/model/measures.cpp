@@ -133,6 +133,7 @@ double deepest_penetration(const Model& model, const State& state) {
   };
   const std::vector<Solid> solids = solids_of(model.scene);
   std::vector<SolidFrame> frames;
+  frames.reserve(solids.size());
   for (const Solid& solid : solids) frames.push_back(frame_at(solid, state.time_s));
   for (const glm::dvec3& x : state.position) {
     if (model.scene.floor) count(model.half_thickness_m - floor_plane(*model.scene.floor).above_m(x));

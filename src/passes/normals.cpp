@@ -45,12 +45,13 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   auto& normal = buffers[BufferId::normal];
   normal.resize(grid.count());
   parallel_rows(grid.rows(), grid.nx, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t p = begin * grid.nx; p < end * grid.nx; ++p) {
-      const Vec3<T> n = whole_sum(grid, buffers[BufferId::position], links, p % grid.nx, p / grid.nx);
-      const T l = std::sqrt(dot3(n, n));
-      normal[p] =
-          glm::vec<4, T>(l > static_cast<T>(shared::kNoNormal) ? n * (T(1) / l) : Vec3<T>(T(0)), T(0));
-    }
+    for (std::uint32_t j = begin; j < end; ++j)
+      for (std::uint32_t i = 0; i < grid.nx; ++i) {
+        const Vec3<T> n = whole_sum(grid, buffers[BufferId::position], links, i, j);
+        const T l = std::sqrt(dot3(n, n));
+        normal[grid.index(i, j)] =
+            glm::vec<4, T>(l > static_cast<T>(shared::kNoNormal) ? n * (T(1) / l) : Vec3<T>(T(0)), T(0));
+      }
   });
 }
 

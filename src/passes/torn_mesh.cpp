@@ -21,15 +21,18 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
       put(is_whole_a(links, own), {own, below, own + 1});
       put(is_whole_b(links, grid, own), {own + 1, below, below + 1});
     }
-  for (std::uint32_t p = 0; p < grid.count(); ++p) {
-    const bool right = p % grid.nx + 1 < grid.nx, below = p / grid.nx + 1 < grid.ny;
+  const auto put_links = [&](std::uint32_t i, std::uint32_t j) {
+    const std::uint32_t p = grid.index(i, j);
+    const bool right = i + 1 < grid.nx, below = j + 1 < grid.ny;
     put(right && !is_broken(links, p, shared::kLinkAlongI), {p, p + 1});
     put(below && !is_broken(links, p, shared::kLinkAlongJ), {p, p + grid.nx});
     if (right && below && !is_broken(links, p, shared::kLinkRising))
       put(true, {p + 1, p + grid.nx});
     else
       put(false, {p, p});
-  }
+  };
+  for (std::uint32_t j = 0; j < grid.ny; ++j)
+    for (std::uint32_t i = 0; i < grid.nx; ++i) put_links(i, j);
 }
 
 }  // namespace

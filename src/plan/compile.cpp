@@ -70,6 +70,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
   }
   if (plan.reaching.asked()) needed.insert(BufferId::reach_groups);
   std::vector<PlanBuffer> buffers;
+  buffers.reserve(needed.size());
   for (const BufferId id : needed)
     buffers.push_back({id, slot_bytes(id, model, plan.row_count(), plan.in_double()) * slot_count(id)});
   return buffers;
