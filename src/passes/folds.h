@@ -167,7 +167,7 @@ class Folds {
   }
 
   const CollisionView<T>& view_;
-  std::array<V, kAcross * kAcross> x_;
+  std::array<V, std::size_t{kAcross} * kAcross> x_;
   Place first_{}, last_{};  // of those that the cloth has
 };
 

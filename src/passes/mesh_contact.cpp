@@ -208,6 +208,11 @@ std::uint64_t distance_word_count(const Model& model) {
   return count;
 }
 
+void touch_mesh(const DistanceGrid& grid, const SolidRow<float>& row, const glm::vec3& x0, glm::vec3& x1,
+                glm::vec3& v) {
+  mesh_touch(MeshField<float>(grid, row.reach), row, x0, x1, v);
+}
+
 const Pass mesh_contact{
     .name = "mesh_contact",
     .about = "contact with meshes, then the floor again",

@@ -12,15 +12,16 @@ namespace weft {
 namespace {
 
 /// Writes the list of one particle and returns how many entries there were, those without room as well.
+/// @param widest  the largest square of limit and skin [m²]: most others are beyond any
 template <class T>
 std::uint32_t gather(const CollisionView<T>& view, const PatchGrid& patches, const PatchSearch<T>& search,
-                     std::uint32_t particle, HostBuffers<T>& buffers) {
+                     std::uint32_t particle, T widest, HostBuffers<T>& buffers) {
   const auto& position = std::as_const(buffers)[BufferId::position];
   auto& places = buffers.words_of(BufferId::pair_places);
   std::uint32_t found = 0;
   const auto add = [&](std::uint32_t other) {
     const T q = squared_distance(position[particle], position[other]);
-    if (!(q < view.limit(particle, other).reach_squared)) return;
+    if (!(q < widest) || !(q < view.limit(particle, other).reach_squared)) return;
     if (found < view.layout.capacity)
       places[std::size_t{found} * position.size() + particle] = view.place_of(other);
     ++found;
@@ -41,9 +42,10 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   buffers.words_of(BufferId::pair_places).resize(std::size_t{grid.count()} * view.layout.capacity);
   const PatchGrid patches(grid);
   const PatchSearch<T> search(view, buffers);
+  const T widest = std::ranges::max(view.limits, {}, &PairLimit<T>::reach_squared).reach_squared;
   std::atomic<std::uint32_t> dropped = 0, listed = 0;
   each_looker(view, buffers, [&](std::uint32_t p) {
-    const std::uint32_t found = gather(view, patches, search, p, buffers);
+    const std::uint32_t found = gather(view, patches, search, p, widest, buffers);
     dropped += found - std::min(found, view.layout.capacity);
     listed |= found;
   });

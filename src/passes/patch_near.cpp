@@ -36,7 +36,7 @@ class BlockSearch {
       return found;
     }
     const auto low = search_.low(patch), high = search_.high(patch);
-    const bool all = search_.around(low, high, search_.distance(), false, [&](std::uint32_t other) {
+    const bool all = search_.around(low, high, search_.distance(), [&](std::uint32_t other) {
       if (is_near(other, low, high)) patches_.each_of(patches_.patches_of(other), look_at);
       return found;
     });
@@ -63,7 +63,7 @@ class BlockSearch {
     const V low = search_.block_low(block), high = search_.block_high(block);
     if (!view_.covered({low, T(0)}) || !view_.covered({high, T(0)})) return false;
     bool found = false;
-    const bool all = search_.around(low, high, search_.distance(), false, [&](std::uint32_t other) {
+    const bool all = search_.around(low, high, search_.distance(), [&](std::uint32_t other) {
       found = is_near(other, low, high) && !patches_.blocks_beside(block, other);
       return found;
     });

@@ -172,10 +172,41 @@ class PatchSearch {
 
   /// Calls visit(block) for each member of the buckets of the cells in which blocks' middles are that have a
   /// particle within `search` of the box; the same may come twice. It ends when visit returns true.
-  /// @param own_cell_only  only where the bucket is asked for by the block's own cell: none comes twice
   /// @return whether those were all cells
   template <class Visit>
-  bool around(const V& low, const V& high, T search, bool own_cell_only, Visit&& visit) const {
+  bool around(const V& low, const V& high, T search, Visit&& visit) const {
+    return each_member(low, high, search, [&](std::uint32_t block, const Cell&) { return visit(block); });
+  }
+
+  /// Calls visit(q) for the particles of the patches that may have one within `search` of p, but for p and
+  /// its neighbours. @return as around()
+  template <class Visit>
+  bool particles_around(const PatchGrid& patches, std::uint32_t p, const V& x, T search,
+                        Visit&& visit) const {
+    const Grid& grid = view_.grid;
+    const std::uint32_t column = p % grid.nx, row = p / grid.nx, cloth = row / grid.ny;
+    const auto close_by = [](std::uint32_t a, std::uint32_t b) { return a + 1 >= b && a <= b + 1; };
+    const auto look_into = [&](std::uint32_t patch) {
+      if (!(gap(x, x, low(patch), high(patch)) < search)) return;
+      const PatchGrid::Block block = patches.block(patch);
+      const bool own_cloth = block.j0 / grid.ny == cloth;
+      for (std::uint32_t j = block.j0; j <= block.j1; ++j)
+        for (std::uint32_t i = block.i0; i <= block.i1; ++i)
+          if (!(own_cloth && close_by(i, column) && close_by(j, row))) visit(grid.index(i, j));
+    };
+    // Which cell a block is in costs more to say than whether it is near: asked last. One that is looked into
+    // only where its own cell asks for its bucket is looked into once.
+    return each_member(x, x, search, [&](std::uint32_t other, const Cell& cell) {
+      if (gap(x, x, block_low(other), block_high(other)) < search && cell_of(other) == cell)
+        patches.each_of(patches.patches_of(other), look_into);
+      return false;
+    });
+  }
+
+ private:
+  /// As around(), with visit(block, cell): the cell whose bucket was looked into.
+  template <class Visit>
+  bool each_member(const V& low, const V& high, T search, Visit&& visit) const {
     const T far_cells = cells_beyond(search);
     Cell first{}, last{};
     bool all = true;
@@ -193,32 +224,11 @@ class PatchSearch {
         for (std::int32_t x = first[0]; x <= last[0]; ++x) {
           const std::uint32_t bucket = view_.bucket_of({x, y, z});
           for (std::uint32_t slot = cells_[bucket]; slot < cells_[bucket + 1]; ++slot)
-            if (!own_cell_only || cell_of(members_[slot]) == Cell{x, y, z})
-              if (visit(members_[slot])) return all;
+            if (visit(members_[slot], Cell{x, y, z})) return all;
         }
     return all;
   }
 
-  /// Calls visit(q) for the particles of the patches that may have one within `search` of p, but for p and
-  /// its neighbours. @return as around()
-  template <class Visit>
-  bool particles_around(const PatchGrid& patches, std::uint32_t p, const V& x, T search,
-                        Visit&& visit) const {
-    const auto look_into = [&](std::uint32_t patch) {
-      if (!(gap(x, x, low(patch), high(patch)) < search)) return;
-      const PatchGrid::Block block = patches.block(patch);
-      for (std::uint32_t j = block.j0; j <= block.j1; ++j)
-        for (std::uint32_t i = block.i0; i <= block.i1; ++i)
-          if (const std::uint32_t q = view_.grid.index(i, j); !beside(view_.grid, p, q)) visit(q);
-    };
-    return around(x, x, search, true, [&](std::uint32_t other) {
-      if (gap(x, x, block_low(other), block_high(other)) < search)
-        patches.each_of(patches.patches_of(other), look_into);
-      return false;
-    });
-  }
-
- private:
   static constexpr T kRoom = static_cast<T>(1.0009765625), kHalfRoom = static_cast<T>(0.5009765625);
 
   const CollisionView<T>& view_;
