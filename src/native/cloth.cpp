@@ -2,11 +2,16 @@
 #include "native/cloth.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <new>
+#include <span>
 
 #include "passes/coefficients.h"
 #include "passes/contact.h"
 #include "passes/integrate.h"
+#include "passes/reach.h"
 
 namespace weft::native {
 namespace {
@@ -51,6 +56,44 @@ Solid solid_of(const SolidRow<float>& row) {
   return solid;
 }
 
+/// What touch_sphere computes of a drift keeps to the law of Clear: it takes the distance at the nearest
+/// point from squares of distances, and 200 radii of way would lose the 2 % that are between reach and depth.
+Clear clear_of(std::span<const SphereRow<float>> spheres) {
+  constexpr double kWayInRadii = 100.0, kMoreOfRadius = 1e-3, kMoreOfPlace = 1e-5;
+  constexpr auto kInfinite = std::numeric_limits<float>::infinity();
+  Clear clear{{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}, 0.0f};
+  double leap = std::numeric_limits<float>::max();
+  for (const SphereRow<float>& sphere : spheres) {
+    const glm::dvec3 center(sphere.center), travel(sphere.travel);
+    const double place = glm::length(center) + glm::length(travel);
+    const double half = sphere.reach * (1.0 + kMoreOfRadius) + kMoreOfPlace * place;
+    const glm::dvec3 low = glm::min(center, center - travel), high = glm::max(center, center - travel);
+    for (int axis = 0; axis < 3; ++axis) {
+      clear.low[axis] = std::min(clear.low[axis], static_cast<float>(low[axis] - half));
+      clear.high[axis] = std::max(clear.high[axis], static_cast<float>(high[axis] + half));
+    }
+    leap = std::min(leap, kWayInRadii * sphere.reach - glm::length(travel));
+  }
+  clear.leap2 = leap > 0.0 ? static_cast<float>(std::min(leap * leap, 1e38)) : -1.0f;
+  return clear;
+}
+
+/// Where bodies are near; what is clear of spheres is then clear of them too.
+Near near_of(const Model& model, const KickDrift& kick, Clear& clear) {
+  constexpr float kLessThanLeap = 0.99f;  // for a way that was not yet rounded to places
+  const ReachRow<float> reach = reach_row<float>(model, kick);
+  Near near{.leap = reach.leap};
+  copy(reach.low, near.low);
+  copy(reach.high, near.high);
+  for (int axis = 0; axis < 3; ++axis) {
+    clear.low[axis] = std::min(clear.low[axis], near.low[axis]);
+    clear.high[axis] = std::max(clear.high[axis], near.high[axis]);
+  }
+  const float leap = kLessThanLeap * near.leap;
+  clear.leap2 = std::min(clear.leap2, leap * leap);
+  return near;
+}
+
 Air air_of(const Model& model, const KickDrift& kick) {
   const AirRow<float> row = air_row<float>(model, kick);
   Air air{.cells_1_m = row.cells_1_m,
@@ -83,6 +126,7 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
   pins_.reserve(rows.size() * model.moved_pins.size());
   air_.reserve(rows.size());
   solids_.reserve(rows.size() * solid_count(model));
+  meshes_.reserve(rows.size() * model.meshes.size());
   kicks_.reserve(rows.size());
   for (const KickDrift& from : rows) {
     const SubstepRow<float> row = substep_row<float>(model, from);
@@ -94,6 +138,8 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
               .begins_frame = kicks_.empty() ? 1u : 0u};
     copy(row.alpha_wind, kick.alpha_wind);
     kick.spheres = spheres_.data() + spheres_.size();
+    kick.clear = clear_of(row.spheres);
+    if (asks_bodies(model)) kick.near = near_of(model, from, kick.clear);
     for (const SphereRow<float>& at : row.spheres) {
       Sphere sphere{.reach = at.reach, .friction = at.friction};
       copy(at.center, sphere.center);
@@ -104,6 +150,8 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
     if (model.scene.aerodynamics) kick.air = &air_.emplace_back(air_of(model, from));
     kick.solids = solids_.data() + solids_.size();
     for (const SolidRow<float>& solid : row.solids) solids_.push_back(solid_of(solid));
+    kick.meshes = meshes_.data() + meshes_.size();
+    for (const SolidRow<float>& mesh : row.meshes) meshes_.push_back(solid_of(mesh));
     kick.pins = pins_.data() + pins_.size();
     for (const PinRow<float>& at : row.pins) {
       PinPlace pin{.released = at.released ? 1u : 0u};
@@ -115,11 +163,11 @@ KickTable::KickTable(const Model& model, std::span<const KickDrift> rows) {
   }
 }
 
-Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad)
+Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad, bool looks_at_drifts)
     : nx_(model.grid.nx),
       ny_(model.grid.ny),
       rows_(model.grid.rows()),
-      variant_(variant_of(constants)),
+      variant_(variant_of(constants) | (looks_at_drifts ? kContact : 0u)),
       relative_inverse_mass_(model.relative_inverse_mass.begin(), model.relative_inverse_mass.end()),
       broken_links_(model.scene.tearing ? model.grid.count() : 0),
       blocks_(model, changes()) {

@@ -31,7 +31,7 @@ class KickTable {
 
  private:
   std::vector<Sphere> spheres_;
-  std::vector<Solid> solids_;
+  std::vector<Solid> solids_, meshes_;
   std::vector<PinPlace> pins_;
   std::vector<Air> air_;
   std::vector<Kick> kicks_;
@@ -47,7 +47,9 @@ class Cloth {
  public:
   /// @param constants  of the plan's steps: which effects there are
   /// @param pad        columns to the right of the cloth, a multiple of kColumns
-  Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad = kColumns);
+  /// @param looks_at_drifts  whether the sweep looks at them for bodies or links
+  Cloth(const Model& model, std::span<const Constant> constants, std::size_t pad = kColumns,
+        bool looks_at_drifts = false);
 
   const Sheet& sheet() const { return sheet_; }  ///< of the first cloth
   Sheet sheet_of(std::size_t cloth) const;

@@ -60,7 +60,7 @@ inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least
     if (flag.load(std::memory_order_acquire) >= least) return;
     pause_briefly();
   }
-  for (std::uint32_t now; (now = flag.load(std::memory_order_acquire)) < least;)
+  for (std::uint32_t now = 0; (now = flag.load(std::memory_order_acquire)) < least;)
     flag.wait(now, std::memory_order_acquire);
 }
 

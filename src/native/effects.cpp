@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "native/body_touch.h"
 #include "passes/passes.h"
 #include "passes/strain_limit.h"
 #include "shared/links.h"
@@ -12,26 +13,11 @@
 namespace weft::native {
 namespace {
 
-glm::vec3 vector_of(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-
-SolidRow<float> solid_row_of(const Solid& s) {
-  return {vector_of(s.center),
-          vector_of(s.start),
-          vector_of(s.velocity),
-          vector_of(s.spin),
-          vector_of(s.half),
-          {vector_of(s.axes[0]), vector_of(s.axes[1]), vector_of(s.axes[2])},
-          {vector_of(s.start_axes[0]), vector_of(s.start_axes[1]), vector_of(s.start_axes[2])},
-          s.reach,
-          s.deep,
-          s.friction};
-}
-
 constexpr std::array kOnRows{&pin_release, &aerodynamics, &solid_contact, &pin_place, &tear};
 
 }  // namespace
 
-Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model)
+Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model, bool touches_bodies)
     : cloth_(cloth),
       kernels_(kernels),
       rows_(cloth.padded_rows()),
@@ -40,7 +26,7 @@ Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model)
       held_(model.moved_particles) {
   for (const MovedParticle& held : held_)
     loosest_.push_back(static_cast<float>(model.loosest_inverse_mass(held.particle)));
-  if (!solid_contact.domain(model).empty()) {
+  if (touches_bodies && !solid_contact.domain(model).empty()) {
     before_ = make_floats(cloth.rows() * 3 * cloth.sheet().stride);
     left_over_.resize(model.grid.count());
   }
@@ -48,6 +34,13 @@ Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model)
   const auto limits = strain_limit_rows<float>(model);
   longest_structural_m2_ = limits[shared::kLimitStructural].y;
   longest_shear_m2_ = limits[shared::kLimitShear].y;
+}
+
+std::uint64_t Effects::bytes() const {
+  const std::uint64_t vectors = (before_ ? 1u : 0u) + (kicked_ ? 1u : 0u);
+  return vectors * cloth_.rows() * 3 * cloth_.sheet().stride * sizeof(float) +
+         (left_over_.size() + links_before_.capacity() + loosest_.size()) * sizeof(std::uint32_t) +
+         held_.size() * sizeof(MovedParticle);
 }
 
 bool Effects::has(const Pass& pass) { return std::ranges::count(kOnRows, &pass) > 0; }

@@ -12,7 +12,8 @@ namespace weft::native {
 
 class Effects {
  public:
-  Effects(Cloth& cloth, const Kernels& kernels, const Model& model);
+  /// @param touches_bodies  whether contact with bodies is a pass here
+  Effects(Cloth& cloth, const Kernels& kernels, const Model& model, bool touches_bodies);
 
   /// Whether the pass runs here.
   static bool has(const Pass& pass);
@@ -21,6 +22,7 @@ class Effects {
   /// One dispatch of such a pass, in that many of the crew's threads. Returns whether it changed who is
   /// fixed.
   bool run(const PlanStep& step, const Kick& kick, Crew& crew, std::uint32_t threads);
+  std::uint64_t bytes() const;
 
  private:
   bool release_pins(const Kick& kick);

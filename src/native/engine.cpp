@@ -55,7 +55,9 @@ Constants effects_of(const Plan& plan) {
 }
 
 Cloth cloth_for(const Model& model, const Plan& plan) {
-  return Cloth(model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns);
+  return Cloth(
+      model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns,
+      sweep_touches_bodies(plan) || sweep_watches_links(plan, model) || sweep_watches_motion(plan, model));
 }
 
 }  // namespace
@@ -65,6 +67,7 @@ Means means_of(const Pass& pass, const Plan& plan) {
                                      &xpbd_predict, &xpbd_pins,      &xpbd_spring,
                                      &xpbd_bend,    &xpbd_tethers,   &xpbd_finish};
   if (std::ranges::count(kSwept, &pass) > 0) return Means::sweep;
+  if ((&pass == &solid_contact || &pass == &mesh_contact) && sweep_touches_bodies(plan)) return Means::sweep;
   if (SelfCollision::has(pass, plan)) return Means::look;
   return Effects::has(pass) ? Means::effect : Means::mirror;
 }
@@ -81,7 +84,8 @@ std::string unsupported(const Plan& plan) {
 Engine::Engine(const Model& model, const Plan& plan, const EngineOptions& options)
     : cloth_(cloth_for(model, plan)),
       kernels_(find_kernels(options.vector)),
-      choice_(choice_for(cloth_, options)) {
+      choice_(choice_for(cloth_, options)),
+      speeds_(options.speeds) {
   furnish(model, plan);
 }
 
@@ -95,8 +99,14 @@ void Engine::adopt(const Model& model, const Plan& plan) {
 }
 
 void Engine::furnish(const Model& model, const Plan& plan) {
-  effects_ = std::make_unique<Effects>(cloth_, kernels_, model);
-  if (model.scene.self_collision) self_collision_ = std::make_unique<SelfCollision>(cloth_, kernels_, model);
+  links_.reset();
+  if (sweep_watches_links(plan, model)) links_ = std::make_unique<LinkWatch>(cloth_, kernels_, model);
+  body_touch_.reset();
+  if (sweep_touches_bodies(plan)) body_touch_ = std::make_unique<BodyTouch>(model, cloth_.sheet().stride);
+  effects_ = std::make_unique<Effects>(cloth_, kernels_, model, body_touch_ == nullptr);
+  if (model.scene.self_collision)
+    self_collision_ =
+        std::make_unique<SelfCollision>(cloth_, kernels_, model, sweep_watches_motion(plan, model));
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
@@ -104,7 +114,7 @@ void Engine::furnish(const Model& model, const Plan& plan) {
 }
 
 std::uint64_t Engine::bytes() const {
-  std::uint64_t bytes = cloth_.bytes();
+  std::uint64_t bytes = cloth_.bytes() + effects_->bytes();
   if (xpbd_) bytes += xpbd_->bytes();
   if (self_collision_) bytes += self_collision_->bytes();
   if (half_velocity_) bytes += cloth_.rows() * 3 * cloth_.sheet().stride * sizeof(float);
@@ -118,7 +128,11 @@ Crew& Engine::crew(std::uint32_t count) {
 
 Bands& Engine::bands(std::uint32_t count) {
   auto& made = bands_[count];
-  if (made == nullptr) made = std::make_unique<Bands>(cloth_, kernels_, count, half_velocity_.get());
+  if (made == nullptr)
+    made = std::make_unique<Bands>(cloth_, kernels_, speeds_, count, half_velocity_.get(), body_touch_.get(),
+                                   links_            ? links_.get()
+                                   : self_collision_ ? self_collision_->watch()
+                                                     : nullptr);
   return *made;
 }
 
@@ -140,6 +154,8 @@ void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t co
 }
 
 void Engine::load(const HostBuffers<float>& buffers) {
+  if (links_) links_->forget();
+  if (self_collision_) self_collision_->forget_motion();
   if (cloth_.take_changes(buffers) && xpbd_) xpbd_->take_masses();
   const std::uint32_t threads = choice_.best();
   crew(threads).run(threads, [&](std::uint32_t own) {
@@ -153,6 +169,10 @@ void Engine::run(const PlanStep& step, const Kick& kick) {
 
 bool Engine::look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers) {
   return self_collision_->run(pass, context, buffers, crew(choice_.best()), choice_.best());
+}
+
+bool Engine::links_are_near(const Kick& kick) {
+  return !links_ || links_->is_near(kick, crew(choice_.best()), choice_.best());
 }
 
 RowThreads& Engine::threads_for_mirrors() { return crew_rows_.emplace(crew(choice_.best()), choice_.best()); }

@@ -8,13 +8,14 @@
 #include <string>
 
 #include "native/bands.h"
+#include "native/crew_rows.h"
 #include "native/effects.h"
 #include "native/engine_options.h"
+#include "native/link_watch.h"
 #include "native/self_collision.h"
 #include "native/surface_target.h"
 #include "native/thread_choice.h"
 #include "native/xpbd.h"
-#include "passes/parallel.h"
 #include "plan/plan.h"
 
 namespace weft::native {
@@ -52,6 +53,8 @@ class Engine {
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }
   /// Sweeps rows [first, first + count) of a frame's schedule.
   void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count);
+  /// After one substep's sweep: whether the strain limit, or tear, may have anything to do in it.
+  bool links_are_near(const Kick& kick);
   void write_surface(const SurfaceTarget& target);
   const Kernels& kernels() const { return kernels_; }
   std::uint32_t threads() const { return choice_.best(); }
@@ -63,26 +66,16 @@ class Engine {
   /// What the plan's solver needs beside the cloth.
   void furnish(const Model& model, const Plan& plan);
 
-  /// The crew as mirrors know it.
-  class CrewRows final : public RowThreads {
-   public:
-    CrewRows(Crew& crew, std::uint32_t threads) : crew_(&crew), threads_(threads) {}
-    unsigned size() const override { return threads_; }
-    std::uint64_t items_per_band_min() const override { return 256; }
-    void run(unsigned count, const std::function<void(unsigned)>& task) override { crew_->run(count, task); }
-
-   private:
-    Crew* crew_;
-    std::uint32_t threads_;
-  };
-
   Cloth cloth_;
   const Kernels& kernels_;
   std::unique_ptr<Effects> effects_;
   std::unique_ptr<SelfCollision> self_collision_;
-  Floats half_velocity_;        ///< velocity Verlet's
-  std::unique_ptr<Xpbd> xpbd_;  ///< the sweeps, where XPBD is the solver
+  std::unique_ptr<LinkWatch> links_;       ///< where the sweep tells of links
+  std::unique_ptr<BodyTouch> body_touch_;  ///< where the sweep touches bodies
+  Floats half_velocity_;                   ///< velocity Verlet's
+  std::unique_ptr<Xpbd> xpbd_;             ///< the sweeps, where XPBD is the solver
   ThreadChoice choice_;
+  ThreadSpeeds speeds_;
   std::unique_ptr<Crew> crew_;
   std::optional<CrewRows> crew_rows_;
   std::map<std::uint32_t, std::unique_ptr<Bands>> bands_;  ///< by count, made when first wanted

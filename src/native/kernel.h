@@ -53,13 +53,27 @@ struct Air {
   std::uint32_t noise_period_mask;  ///< cells
 };
 
+/// Where no sphere and no body is in one drift: a particle that is beyond the box on one side where the drift
+/// begins and where it ends, and goes less than `leap`, is touched by none.
+struct Clear {
+  float low[3], high[3];  ///< round all of them all the while, and some more [m]
+  float leap2;            ///< its square [m²]; negative: spheres go too far themselves
+};
+
+/// What of a drift may touch a body: passes/reach.h "ReachRow".
+struct Near {
+  float low[3], high[3], leap;  ///< [m]
+};
+
 /// One row of the schedule, rounded once; passes/coefficients.h says what each is.
 struct Kick {
   float alpha_wind[3], loss, gain, drift;
   float predict_loss, predict_gain;  ///< of the kick that predicts; 0 without one
   std::uint32_t begins_frame;        ///< the frame's first row
   const Sphere* spheres;             ///< Outside::sphere_count of them
-  const Solid* solids;               ///< capsules and boxes
+  const Solid *solids, *meshes;      ///< capsules and boxes; meshes
+  Clear clear;                       ///< of all whose contact is the sweep's
+  Near near;                         ///< the bodies of these
   const PinPlace* pins;              ///< as Model::moved_pins
   const Air* air;                    ///< null without [aerodynamics]
 };
@@ -79,6 +93,27 @@ struct Sheet {
   const std::uint32_t* block_of;  ///< by row and block
 };
 
+/// A particle whose contact vectors do not compute.
+struct Drifted {
+  float* at;           ///< its column of the row
+  float from[3];       ///< where its drift began [m]
+  std::uint32_t deep;  ///< whether capsules and boxes come first: its path may have gone deep
+};
+
+/// Bodies whose contact is the sweep's, right after the drift.
+struct Bodies {
+  std::uint32_t solid_count, has_meshes;
+  Drifted* list;  ///< room for those of a row and of one vector more
+  void (*touch_rest)(const void* self, const Kick& kick, const Drifted* list, std::size_t count);
+  const void* self;
+};
+
+/// What the sweep tells of ways: docs in native/link_watch.h.
+struct LinkLeap {
+  float leap2;           ///< [m²]
+  std::uint32_t* leapt;  ///< set where a particle goes so far; null: nobody asks
+};
+
 /// One sweep over rows [first, last): kick and drift, in place.
 struct Sweep {
   Sheet sheet;
@@ -86,10 +121,16 @@ struct Sweep {
   const Kick* kick;
   float* const* rows;  ///< by row, from first − 2 (where there is one) to last + 1
   std::size_t first, last;
+  bool goes_on;    ///< where the call before ended, whose `carried` it takes over; otherwise rows above count
   float* carried;  ///< P, then the (0,2) pairs' forces of the row above: 6·stride, as a row
   /// Velocity Verlet's velocities half a step behind, by row of the cloth: 3·stride each; null in leapfrog.
   float* half_velocity;
+  Bodies bodies;
+  LinkLeap links;
+  float* put_off;  ///< room for vectors that contact moves after their row: put_off_floats of them
 };
+/// Floats that Sweep::put_off has room for: a vector of four columns takes the most.
+constexpr std::size_t put_off_floats(std::size_t stride) { return 8 * stride; }
 
 /// XPBD's cloth: the rows as of Sheet, with a wider pad to the right, and beside each how far its particles
 /// have moved since the substep began and their inverse masses: mx[stride] my[stride] mz[stride] w[stride].
@@ -159,6 +200,14 @@ struct Tear {
   std::uint32_t* broken_links;            ///< by particle
 };
 
+/// The longest links of rows [first, last) of a cloth of nx × ny and the fastest particle.
+struct LinkLook {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;  ///< by row
+  float structural2, shear2, speed2,
+      place2;  ///< results: squares of the largest [m², m²/s²]; from the origin
+};
+
 /// Rows [first, last) of patches of a cloth of nx × ny: boxes and bends, as docs/float-form.md "Patches" and
 /// "Folds".
 struct PatchLook {
@@ -190,7 +239,10 @@ struct LeashLook {
   float moved_squared_max, roam_max;      ///< [m², m]
   float surface_limit, roam_share;        ///< [m]
   std::uint32_t* left_over;               ///< room for the particles of these rows
+  bool measures;                          ///< whether the results after `stale` are wanted
   std::uint32_t stale;                    ///< result
+  float gone2, speed2, place2;            ///< results: the largest squares, as MotionWatch wants them
+  std::uint32_t unsound;                  ///< result: some place or speed is no number
 };
 
 /// Sixteen boxes of the tree of patches: four by four patches of a leaf, or four by four nodes of the level
@@ -216,6 +268,25 @@ struct NearLook {
   std::uint32_t* listed;  ///< by patch
 };
 
+/// Two surfaces nearer than their limit: of the four particles the weights of their motion in the distance,
+/// and the way from the second side to the first.
+struct SurfaceTouch {
+  std::uint32_t particle[4];
+  float weight[4], d[3], squared;
+  std::uint32_t edges;  ///< whether two edges, or a particle and a triangle
+};
+
+/// Listed pairs of one kind. Their particles in blocks of kColumns: all first ones, all second ones, and so
+/// on; the rest of the last block names any particle.
+struct SurfaceLook {
+  const float* near;  ///< vec4 a particle
+  const std::uint32_t* corners;
+  std::size_t count;
+  float limit_squared, edge_tiny;  ///< [m²]
+  float* distances;                ///< result, room for whole blocks [m]
+  SurfaceTouch* touching;          ///< result, room for all
+};
+
 /// Which variant of the sweep: what is absent costs nothing.
 enum SweepEffect : std::uint32_t { kDamping = 1, kShear = 2, kTwoApart = 4, kAir = 8, kContact = 16 };
 inline constexpr std::uint32_t kSweepVariants = 32;
@@ -229,11 +300,14 @@ struct Kernels {
   void (*air_kick)(const AirKick&);
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
-  std::size_t (*look_at_motion)(LeashLook&);       ///< returns how many particles are out of their room
-  std::size_t (*look_at_patches)(PatchLook&);      ///< returns how many cells it left over
+  void (*look_at_links)(LinkLook&);
+  std::size_t (*look_at_motion)(LeashLook&);   ///< returns how many particles are out of their room
+  std::size_t (*look_at_patches)(PatchLook&);  ///< returns how many cells it left over
   void (*make_near_leaves)(const NearLook&);
   void (*make_near_levels)(const NearLook&);  ///< once all leaves are made
   void (*look_near)(const NearLook&);
+  std::size_t (*look_at_triangles)(const SurfaceLook&);  ///< returns how many touch
+  std::size_t (*look_at_edges)(const SurfaceLook&);
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with

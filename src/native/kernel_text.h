@@ -52,11 +52,13 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 #include "native/contact_text.h"
 #include "native/fold_text.h"
 #include "native/leash_text.h"
+#include "native/link_text.h"
 #include "native/near_text.h"
 #include "native/patch_text.h"
 #include "native/solid_text.h"
 #include "native/surface_text.h"
 #include "native/tear_text.h"
+#include "native/touch_text.h"
 #include "native/xpbd_text.h"
 
 /// The force on b, minus that on a; docs/float-form.md "One pair". The sweep adds up these, so that b's
@@ -159,6 +161,9 @@ WEFT_INLINE Vec3 reaction_of(const Place& at, const Body& own, const Block& bloc
 struct Acting {
   Outside outside;
   Kick kick;
+  Bodies bodies;
+  std::uint32_t* leapt;
+  Asked asked;
 };
 
 /// A vector whose reaction is known and that has yet to move.
@@ -166,14 +171,24 @@ struct Waiting {
   float *own = nullptr, *half_velocity = nullptr;  ///< null: there is none; not velocity Verlet
   const float* inverse_mass = nullptr;
   const std::uint32_t* has_fixed = nullptr;
+  Side side;  ///< from which it sees the spheres
   alignas(64) float reaction[3 * kLanes] = {};
 };
+
+/// Vectors that floor, spheres or bodies may touch: they move once their row is done, for a call amid the
+/// springs would cost every vector its registers.
+struct PutOff {
+  Waiting* list;
+  Index count = 0, drifted = 0;  ///< vectors; particles in Bodies::list
+};
+
+enum class Contact { put_off, now };
 
 /// docs/float-form.md "Kick and drift" and contact, in place. Gravity and wind are one predicted jump and one
 /// addition each, so that they need no variant of their own; nor does velocity Verlet, whose springs see the
 /// velocity that it predicts.
-template <std::uint32_t kEffects>
-WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
+template <std::uint32_t kEffects, Contact kWhen = Contact::put_off>
+WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s, PutOff& put_off) {
   if (waiting.own == nullptr) return;
   const Kick& kick = acting.kick;
   const Body own = load_body(waiting.own, s);
@@ -187,9 +202,22 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
   if constexpr (kEffects & kAir) change = change - splat(kick.loss) * before;
   Touched next;
   next.v = before + change;
-  next.x = own.x + splat(kick.drift) * next.v;
-  if constexpr (kEffects & kContact)
-    if (kick.drift > 0.0f) next = touch(acting.outside, kick, own.x, next);
+  const Vec3 way = splat(kick.drift) * next.v;
+  next.x = own.x + way;
+  if constexpr ((kEffects & kContact) && kWhen == Contact::now) {
+    touch_all(acting.outside, kick, own.x, next);
+    if (acting.asked.bodies)
+      touch_bodies(acting.outside, acting.bodies, kick, own.x, w != Vec{}, waiting.own, next,
+                   put_off.drifted);
+    const Vec3 gone = next.x - own.x;
+    if (acting.asked.links && any(~(dot(gone, gone) < splat(acting.asked.leap2)))) *acting.leapt = 1;
+  }
+  if constexpr ((kEffects & kContact) && kWhen == Contact::put_off)
+    if (kick.drift > 0.0f &&
+        may_be_touched(acting.outside, acting.asked, kick, waiting.side, own.x, way, next.x)) {
+      put_off.list[put_off.count++] = waiting;
+      return;
+    }
   if (half != nullptr) {  // who is let go within a frame goes on from the velocity that its pin had
     store_first(half, s, *waiting.has_fixed ? select(w == Vec{}, own.v, next.v) : next.v);
     Vec3 further = splat(kick.predict_gain) * acceleration;
@@ -205,13 +233,24 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s) {
   store_last(waiting.own, s, next.v);
 }
 
+template <std::uint32_t kEffects>
+__attribute__((noinline)) void move_put_off(const Acting& acting, Strides s, PutOff& put_off) {
+  for (Index k = 0; k < put_off.count; ++k) move<kEffects, Contact::now>(acting, put_off.list[k], s, put_off);
+  put_off.count = 0;
+  if (put_off.drifted > 0 && acting.asked.links) *acting.leapt = 1;
+  if (put_off.drifted > 0)
+    acting.bodies.touch_rest(acting.bodies.self, acting.kick, acting.bodies.list, put_off.drifted);
+  put_off.drifted = 0;
+}
+
 enum class Part { two_above, above, own };
 
 /// One row: the two above a band only leave what reaches into it. A vector moves amid the springs of the next
 /// one, which nothing there depends on: its dozen operations each wait for the one before, and by themselves
 /// leave the processor idle. Nobody reads it meanwhile.
 template <std::uint32_t kEffects, Part kPart>
-WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Waiting& waiting) {
+WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Waiting& waiting,
+                           PutOff& put_off) {
   const Sheet& sheet = sweep.sheet;
   FromLeft left;
   Place at{sweep.rows[j] + kColumns, sweep.rows[j + 1] + kColumns, sweep.rows[j + 2] + kColumns,
@@ -219,19 +258,21 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Wa
   float* half = sweep.half_velocity;
   if (half != nullptr) half += j * 3 * sheet.stride + kColumns;
   const std::uint32_t* const block_of = sheet.block_of + j * sheet.block_count;
+  if constexpr (kPart == Part::own && (kEffects & kContact))
+    waiting.side = side_for(acting.kick.clear, at.own, sheet.stride);
+  const auto meanwhile = [&] { move<kEffects>(acting, waiting, at.strides, put_off); };
   for (Index b = 0; b < sheet.block_count; ++b) {
     const Block& block = sheet.blocks[block_of[b]];
     for (Index lane = 0; lane < kColumns; lane += kLanes) {
       const Body own = load_body(at.own, at.strides);
       if constexpr (kPart == Part::own) {
-        const Vec3 reaction = reaction_of<kEffects>(at, own, block, lane, left,
-                                                    [&] { move<kEffects>(acting, waiting, at.strides); });
+        const Vec3 reaction = reaction_of<kEffects>(at, own, block, lane, left, meanwhile);
         store3(waiting.reaction, kLanes, reaction);
         waiting.own = at.own;
         waiting.half_velocity = half;
         waiting.inverse_mass = block.inverse_mass + lane;
         waiting.has_fixed = &block.has_fixed;
-        if (half != nullptr) half += kLanes;
+        half = half != nullptr ? half + kLanes : nullptr;
       } else {
         if constexpr (kPart == Part::above) springs_down<kEffects>(at, own, block, lane, left);
         if constexpr (kEffects & kTwoApart) spring_two_down<kEffects>(at, own, block, lane);
@@ -242,21 +283,38 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Wa
       at.carried += kLanes;
     }
   }
+  if constexpr (kPart == Part::own && (kEffects & kContact))
+    if (put_off.count > 0) move_put_off<kEffects>(acting, at.strides, put_off);
 }
+
+WEFT_INLINE Acting acting_of(const Sweep& sweep) {
+  const bool bodies = sweep.bodies.solid_count > 0 || sweep.bodies.has_meshes,
+             links = sweep.links.leapt != nullptr;
+  Acting acting{
+      sweep.outside, *sweep.kick, sweep.bodies, sweep.links.leapt, {bodies, links, sweep.links.leap2}};
+  float& leap2 = acting.kick.clear.leap2;
+  if (links && sweep.links.leap2 < leap2) leap2 = sweep.links.leap2;
+  return acting;
+}
+
+static_assert(sizeof(Waiting) <= put_off_floats(kLanes) * sizeof(float));
 
 template <std::uint32_t kEffects>
 void sweep_rows(const Sweep& sweep) {
   constexpr std::uint32_t kSprings = kEffects & (kDamping | kShear | kTwoApart);
-  const Acting acting{sweep.outside, *sweep.kick};
+  const Acting acting = acting_of(sweep);
   Waiting waiting;
-  __builtin_memset(sweep.carried, 0, 6 * sweep.sheet.stride * sizeof(float));
-  if (sweep.first > 0) {
+  PutOff put_off{reinterpret_cast<Waiting*>(sweep.put_off)};
+  if (!sweep.goes_on) __builtin_memset(sweep.carried, 0, 6 * sweep.sheet.stride * sizeof(float));
+  if (sweep.first > 0 && !sweep.goes_on) {
     if constexpr (kSprings & kTwoApart)
-      sweep_row<kSprings, Part::two_above>(sweep, acting, sweep.first - 2, waiting);
-    sweep_row<kSprings, Part::above>(sweep, acting, sweep.first - 1, waiting);
+      sweep_row<kSprings, Part::two_above>(sweep, acting, sweep.first - 2, waiting, put_off);
+    sweep_row<kSprings, Part::above>(sweep, acting, sweep.first - 1, waiting, put_off);
   }
-  for (Index j = sweep.first; j < sweep.last; ++j) sweep_row<kEffects, Part::own>(sweep, acting, j, waiting);
-  move<kEffects>(acting, waiting, Strides(sweep.sheet.stride));
+  for (Index j = sweep.first; j < sweep.last; ++j)
+    sweep_row<kEffects, Part::own>(sweep, acting, j, waiting, put_off);
+  move<kEffects>(acting, waiting, Strides(sweep.sheet.stride), put_off);
+  if constexpr (kEffects & kContact) move_put_off<kEffects>(acting, Strides(sweep.sheet.stride), put_off);
 }
 
 /// Sixteen independent chains of 1/√x hide the latency; their sum keeps them alive.
@@ -265,9 +323,9 @@ float divide(std::uint64_t repeats) {
   Vec chain[kChains];
   for (int c = 0; c < kChains; ++c) chain[c] = splat(1.5f + static_cast<float>(c));
   for (std::uint64_t n = 0; n < repeats; n += kChains)
-    for (int c = 0; c < kChains; ++c) chain[c] = splat(1.0f) / root(chain[c]);
+    for (Vec& link : chain) link = splat(1.0f) / root(link);
   float sum = 0.0f;
-  for (int c = 0; c < kChains; ++c) sum += chain[c][0];
+  for (const Vec& link : chain) sum += link[0];
   return sum;
 }
 
@@ -289,11 +347,14 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           air_kick,
           touch_solids,
           tear,
+          look_at_links,
           look_at_motion,
           look_at_patches,
           make_near_leaves,
           make_near_levels,
           look_near,
+          look_at_surfaces<false>,
+          look_at_surfaces<true>,
           xpbd_predict,
           xpbd_finish,
           {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "native/crew_rows.h"
 #include "passes/carry.h"
 #include "passes/folds.h"
 #include "passes/leash.h"
@@ -16,18 +17,21 @@
 namespace weft::native {
 namespace {
 
-constexpr std::array kLooking{&carry, &pair_check, &cell_count, &patch_near};
+constexpr std::array kLooking{&carry,          &pair_check,    &cell_count,     &patch_near,
+                              &surface_gather, &surface_touch, &surface_contact};
 
 }  // namespace
 
-SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model)
+SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model, bool watches)
     : cloth_(cloth),
       kernels_(kernels),
       view_(model),
+      contacts_(view_, kernels),
       shares_motion_(shares_motion(model)),
       left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
   for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
   if (model.grid.cloths == 1) make_room_for_tree();
+  if (watches) watch_.emplace(std::min(view_.layout.stale_m, view_.layout.roam_max_m));
 }
 
 void SelfCollision::make_room_for_tree() {
@@ -46,7 +50,7 @@ void SelfCollision::make_room_for_tree() {
 
 std::uint64_t SelfCollision::bytes() const {
   return scratch_.size() * sizeof(float) + left_over_.size() * sizeof(std::uint32_t) +
-         nodes_.size() * sizeof(NearNode) + bends_.size();
+         nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes();
 }
 
 /// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
@@ -56,14 +60,27 @@ bool SelfCollision::has(const Pass& pass, const Plan& plan) {
   return std::ranges::count(kLooking, &pass) > 0;
 }
 
-bool SelfCollision::reads_buffers(const Pass& pass) { return &pass == &cell_count; }
+bool SelfCollision::reads_buffers(const Pass& pass) {
+  return &pass == &cell_count || &pass == &surface_gather;
+}
 
 bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers,
                         Crew& crew, std::uint32_t threads) {
   if (&pass == &carry) carry_along(context.model, buffers);
   if (&pass == &pair_check) return check_motion(context, buffers, crew, threads);
-  if (&pass == &cell_count && lists_stale(buffers)) count_cells(buffers, crew, threads);
+  if (&pass == &cell_count && lists_stale(buffers)) {
+    count_cells(buffers, crew, threads);
+    if (watch_) watch_->lists_made();
+  }
   if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
+  if (&pass == &surface_touch) contacts_.touch(buffers, crew, threads);
+  if (&pass == &surface_contact) contacts_.respond(buffers, crew, threads);
+  if (&pass == &surface_gather) {  // its mirror's, which several threads run
+    CrewRows rows(crew, threads);
+    const RowThreadsInUse in_use(rows);
+    pass.mirror_f32(context, buffers);
+    contacts_.forget_lists();
+  }
   return false;
 }
 
@@ -81,39 +98,66 @@ void SelfCollision::carry_along(const Model& model, HostBuffers<float>& buffers)
 bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
                                  std::uint32_t threads) {
   bool stale = begin_check(context, view_, buffers), moved = false;
-  if (buffers.words_of(BufferId::collision_state)[shared::kListsArmed] != 0) {
-    buffers[BufferId::near_position].resize(view_.grid.count());
-    const Leash<float> leash(view_, buffers);
-    const glm::vec3 &b = leash.with_lists(), &n = leash.with_contacts();
-    std::vector<LeashLook> looks(threads, {.stride = cloth_.sheet().stride,
-                                           .nx = cloth_.nx(),
-                                           .rows = rows_.data(),
-                                           .relative_inverse_mass = cloth_.relative_inverse_mass().data(),
-                                           .built = &buffers[BufferId::built_position][0].x,
-                                           .near = &buffers[BufferId::near_position][0].x,
-                                           .bounds = buffers.words_of(BufferId::surface_bound).data(),
-                                           .no_bound = shared::kInfinity,
-                                           .with_lists = {b.x, b.y, b.z},
-                                           .with_contacts = {n.x, n.y, n.z},
-                                           .moved_squared_max = view_.moved_squared_max,
-                                           .roam_max = view_.roam_max,
-                                           .surface_limit = view_.surface_limit,
-                                           .roam_share = shared::kRoamShare});
-    std::vector<std::size_t> counts(threads);
-    crew.run(threads, [&](std::uint32_t own) {
-      LeashLook& look = looks[own];
-      look.first = own * cloth_.rows() / threads;
-      look.last = (own + std::size_t{1}) * cloth_.rows() / threads;
-      look.left_over = left_over_.data() + look.first * cloth_.nx();
-      counts[own] = kernels_.look_at_motion(look);
-    });
-    for (std::uint32_t own = 0; own < threads; ++own) {
-      stale |= looks[own].stale != 0;
-      moved |= hold_back({looks[own].left_over, counts[own]}, buffers);
-    }
-  }
+  const auto& state = buffers.words_of(BufferId::collision_state);
+  if (watch_ && state[shared::kPairsListed] != 0) watch_->forget();
+  const bool looks = state[shared::kListsArmed] != 0 && !(watch_ && watch_->all_are_in());
+  if (looks) moved = look_at_motion(buffers, crew, threads, stale);
   end_check(view_, stale, buffers);
   return moved;
+}
+
+/// Adds to `stale` and returns whether anybody was held back.
+bool SelfCollision::look_at_motion(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads,
+                                   bool& stale) {
+  buffers[BufferId::near_position].resize(view_.grid.count());
+  const Leash<float> leash(view_, buffers);
+  const glm::vec3 &b = leash.with_lists(), &n = leash.with_contacts();
+  const bool measures = watch_ && buffers.words_of(BufferId::collision_state)[shared::kPairsListed] == 0;
+  std::vector<LeashLook> looks(threads, {.stride = cloth_.sheet().stride,
+                                         .nx = cloth_.nx(),
+                                         .rows = rows_.data(),
+                                         .relative_inverse_mass = cloth_.relative_inverse_mass().data(),
+                                         .built = &buffers[BufferId::built_position][0].x,
+                                         .near = &buffers[BufferId::near_position][0].x,
+                                         .bounds = buffers.words_of(BufferId::surface_bound).data(),
+                                         .no_bound = shared::kInfinity,
+                                         .with_lists = {b.x, b.y, b.z},
+                                         .with_contacts = {n.x, n.y, n.z},
+                                         .moved_squared_max = view_.moved_squared_max,
+                                         .roam_max = view_.roam_max,
+                                         .surface_limit = view_.surface_limit,
+                                         .roam_share = shared::kRoamShare,
+                                         .measures = measures});
+  std::vector<std::size_t> counts(threads);
+  crew.run(threads, [&](std::uint32_t own) {
+    LeashLook& look = looks[own];
+    look.first = own * cloth_.rows() / threads;
+    look.last = (own + std::size_t{1}) * cloth_.rows() / threads;
+    look.left_over = left_over_.data() + look.first * cloth_.nx();
+    counts[own] = kernels_.look_at_motion(look);
+  });
+  bool moved = false;
+  for (std::uint32_t own = 0; own < threads; ++own) {
+    stale |= looks[own].stale != 0;
+    moved |= hold_back({looks[own].left_over, counts[own]}, buffers);
+  }
+  if (measures) watch_anew(looks, moved);
+  return moved;
+}
+
+/// From a look at everybody; where somebody was held back or has no place the next check looks again.
+void SelfCollision::watch_anew(std::span<const LeashLook> looks, bool moved) {
+  LeashLook all = looks[0];
+  for (const LeashLook& look : looks) {
+    all.gone2 = std::max(all.gone2, look.gone2);
+    all.speed2 = std::max(all.speed2, look.speed2);
+    all.place2 = std::max(all.place2, look.place2);
+    all.unsound |= look.unsound;
+  }
+  if (moved || all.unsound != 0)
+    watch_->forget();
+  else
+    watch_->measured(all.gone2, all.speed2, all.place2);
 }
 
 /// With the mirror's own code: few are out of their room.

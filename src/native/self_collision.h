@@ -1,10 +1,13 @@
 // The passes of self-collision that have vector code: they read the cloth's rows and write its buffers.
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "native/cloth.h"
 #include "native/crew.h"
+#include "native/motion_watch.h"
+#include "native/surface_contacts.h"
 #include "passes/collision.h"
 #include "plan/plan.h"
 
@@ -12,8 +15,9 @@ namespace weft::native {
 
 class SelfCollision {
  public:
-  /// @param model  with [self_collision]; it and the cloth outlive this
-  SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model);
+  /// @param model    with [self_collision]; it and the cloth outlive this
+  /// @param watches  whether sweeps tell of long ways (sweep_watches_motion)
+  SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model, bool watches);
 
   /// Whether the pass of the plan runs here.
   static bool has(const Pass& pass, const Plan& plan);
@@ -22,12 +26,20 @@ class SelfCollision {
   /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
   bool run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
            std::uint32_t threads);
+  /// Whom sweeps have to tell; null: nobody.
+  LeapWatch* watch() { return watch_ ? &*watch_ : nullptr; }
+  /// Particles have been moved otherwise.
+  void forget_motion() {
+    if (watch_) watch_->forget();
+  }
   std::uint64_t bytes() const;
 
  private:
   void carry_along(const Model& model, HostBuffers<float>& buffers) const;
   bool check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
                     std::uint32_t threads);
+  bool look_at_motion(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads, bool& stale);
+  void watch_anew(std::span<const LeashLook> looks, bool moved);
   bool hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers);
   void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
@@ -38,7 +50,9 @@ class SelfCollision {
   Cloth& cloth_;
   const Kernels& kernels_;
   CollisionView<float> view_;
+  SurfaceContacts contacts_;
   bool shares_motion_;
+  std::optional<MotionWatch> watch_;
   std::vector<const float*> rows_;  ///< by row of all cloths
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> left_over_;

@@ -58,15 +58,18 @@ WEFT_INLINE void touch_solid(const Solid& solid, Vec3 x0, Mask movable, Touched&
       select(hit, respond(now.v, surface, in_world(solid.axes, near.normal), splat(solid.friction)), now.v);
 }
 
+WEFT_INLINE void touch_level(float floor_height, float floor_friction, Touched& now) {
+  const Vec height = splat(floor_height);
+  const Mask below = now.x.y < height;
+  now.x.y = select(below, height, now.x.y);
+  now.v =
+      select(below, respond(now.v, Vec3{}, Vec3{Vec{}, splat(1.0f), Vec{}}, splat(floor_friction)), now.v);
+}
+
 WEFT_INLINE void touch_ground(const SolidTouch& t, Touched& now) {
   const Vec3 still{};
   const Vec friction = splat(t.floor_friction);
-  if (t.has_level) {
-    const Vec height = splat(t.floor_height);
-    const Mask below = now.x.y < height;
-    now.x.y = select(below, height, now.x.y);
-    now.v = select(below, respond(now.v, still, Vec3{Vec{}, splat(1.0f), Vec{}}, friction), now.v);
-  }
+  if (t.has_level) touch_level(t.floor_height, t.floor_friction, now);
   if (t.has_tilt) {
     const Vec3 n = splat3(t.tilt_normal);
     const Vec above = dot(n, now.x) - splat(t.tilt_level);
@@ -100,4 +103,25 @@ Index touch_solids(const SolidTouch& t) {
     }
   }
   return count;
+}
+
+/// Contact of a drift within the sweep: vectors of capsules and boxes; meshes, and who may have gone deep,
+/// are listed for afterwards.
+WEFT_INLINE void touch_bodies(const Outside& outside, const Bodies& bodies, const Kick& kick, Vec3 x0,
+                              Mask movable, float* own, Touched& next, Index& listed) {
+  const Mask near = near_bodies(kick.near, x0, next.x) & movable;
+  if (!any(near)) return;
+  Mask left{};
+  if (bodies.solid_count > 0) {
+    Touched now = next;
+    for (std::uint32_t s = 0; s < bodies.solid_count; ++s) touch_solid(kick.solids[s], x0, near, now, left);
+    if (outside.has_floor) touch_level(outside.floor_height, outside.floor_friction, now);
+    const Mask moves = near & ~left;
+    next.x = select(moves, now.x, next.x);
+    next.v = select(moves, now.v, next.v);
+  }
+  for (unsigned lanes = bits_of(bodies.has_meshes ? near : left); lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctz(lanes);
+    bodies.list[listed++] = {own + lane, {x0.x[lane], x0.y[lane], x0.z[lane]}, left[lane] != 0 ? 1u : 0u};
+  }
 }

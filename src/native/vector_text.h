@@ -103,6 +103,14 @@ WEFT_INLINE Mask lanes_from(int first) {
   return lanes + first;
 }
 
+/// Of numbers from 0 on; what is no number does not count.
+WEFT_INLINE float largest(Vec v) {
+  float most = 0.0f;
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (v[lane] > most) most = v[lane];
+  return most;
+}
+
 struct Vec3 {
   Vec x, y, z;
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "native/bands.h"
+#include "native/thread_speeds.h"
 #include "passes/integrate.h"
 #include "passes/passes.h"
 #include "passes/xpbd.h"
@@ -81,10 +81,8 @@ Xpbd::Colour Xpbd::colour_of(const PlanStep& step, const Model& model) const {
 }
 
 Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) const {
-  Band band{.first = band_border(cloth_, own, count),
-            .last = band_border(cloth_, own + 1, count),
-            .own = own,
-            .count = count};
+  const std::vector<std::size_t> borders = band_borders(cloth_, std::vector<double>(count, 1.0));
+  Band band{.first = borders[own], .last = borders[own + 1], .own = own, .count = count};
   band.goes_on_above = band.first % cloth_.ny() != 0;
   band.goes_on_below = band.last % cloth_.ny() != 0;
   cloth_.in_each_cloth(band.first, band.last, [&](const ClothRows& rows) {

@@ -1,5 +1,6 @@
 // A running cloth whose state lies in the host's memory: frames in parts, what is drawn, changes under way.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@ class HostSimulation : public Simulation {
   /// As DrawnSimulation::adopt and place.
   virtual bool adopt(const Model&) = 0;
   virtual void place(std::span<const PlacedParticle>) = 0;
+  /// How many take part in a substep by now.
+  virtual std::uint32_t threads() const { return 1; }
 };
 
 /// The reference: make_cpu_simulation, for whoever runs it in parts.

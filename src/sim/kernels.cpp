@@ -109,6 +109,10 @@ std::string describe(const Kernel& k) {
   return fmt::format("{} {}x{}, {} substeps a dispatch", name, k.bands, k.columns, k.substeps);
 }
 
+bool has_own_form(const Kernel& kernel, const Pass& pass) {
+  return &pass == &integrate || (pass.takes_texels && kernel.kind == KernelKind::texel);
+}
+
 std::uint32_t march_rows(const gpu::Device& device, std::uint32_t rows) {
   return device.info().software ? std::clamp(rows / 16, 4u, 16u) : 1;
 }

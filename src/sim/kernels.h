@@ -52,6 +52,10 @@ std::vector<std::string> fitting_kernel_names(const gpu::Device&, const Plan&);
 /// The kernel that needs nothing of the device.
 Kernel direct_kernel(const gpu::Device&, const Plan&);
 
+/// Whether a kernel runs a pass otherwise than the direct one does. Passes that take texels do so with all
+/// others; `texel` stands for them.
+bool has_own_form(const Kernel&, const Pass&);
+
 /// Rows that an invocation of a marching pass over so many takes: marching saves loads and coefficients,
 /// which is what a software device's time goes to, and keeps at least about 16 rows of workgroups for its
 /// threads. A GPU needs the invocations.

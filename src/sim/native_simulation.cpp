@@ -28,6 +28,7 @@ class NativeSimulation final : public CpuSimulation<float> {
     return fmt::format("native ({}, {} {})", engine_.kernels().name, threads,
                        threads == 1 ? "thread" : "threads");
   }
+  std::uint32_t threads() const override { return engine_.threads(); }
   std::uint64_t bytes_allocated() const override {
     return CpuSimulation::bytes_allocated() + engine_.bytes();
   }
@@ -53,11 +54,17 @@ class NativeSimulation final : public CpuSimulation<float> {
   void run_frame_end() override { run_stages(Block::frame_end, frame_.substeps); }
 
   void run_stages(Block block, std::uint32_t substep) {
-    bool swept = false;
+    bool swept = false, near_links = true;
     for (const PlanStep& step : plan_.steps) {
       if (step.block != block || (block == Block::substep && substep % step.interval != 0)) continue;
       if (native::means_of(*step.pass, plan_) == native::Means::sweep) {
-        if (!std::exchange(swept, true)) sweep(block, substep, 1);
+        if (!std::exchange(swept, true)) {
+          sweep(block, substep, 1);
+          if (block == Block::substep)
+            near_links = engine_.links_are_near(table_.kicks()[plan_.table_row(step, substep)]);
+        }
+      } else if (!near_links && (step.pass == &strain_limit || step.pass == &tear)) {
+        this->count(step, 1, 0.0);
       } else if (native::means_of(*step.pass, plan_) == native::Means::effect) {
         run_effect(step, substep);
       } else if (native::means_of(*step.pass, plan_) == native::Means::look) {
@@ -167,8 +174,9 @@ class NativeSimulation final : public CpuSimulation<float> {
     only_sweeps_ = std::ranges::all_of(plan_.steps, [this](const PlanStep& step) {
       return step.block != Block::substep || native::means_of(*step.pass, plan_) == native::Means::sweep;
     });
-    contact_follows_ =
-        std::ranges::any_of(plan_.steps, [](const PlanStep& step) { return step.pass == &mesh_contact; });
+    contact_follows_ = std::ranges::any_of(plan_.steps, [this](const PlanStep& step) {
+      return step.pass == &mesh_contact && native::means_of(*step.pass, plan_) == native::Means::mirror;
+    });
   }
 
   native::Engine engine_;

@@ -254,8 +254,8 @@ void Validator<T>::size_outputs(std::size_t step, HostBuffers<T>& host) const {
   }
 }
 
-/// Runs one step on the device, `integrate` by every kernel, and by its mirror, all from the walk's buffers;
-/// what the mirror leaves there is what the next step finds.
+/// Runs one step on the device, by every kernel that has a form of its own of it, and by its mirror, all from
+/// the walk's buffers; what the mirror leaves there is what the next step finds.
 template <class T>
 void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& walk) {
   const PlanStep& planned = plan_.steps[step];
@@ -264,9 +264,10 @@ void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& wal
   size_outputs(step, host);
   const HostBuffers<T> before = host;
   std::vector<PassResult<T>> results;
-  for (const KernelRunner& with : runners_)
-    if (results.empty() || planned.pass == &integrate)
-      results.push_back(with.runner->run(step, host, walk.rows, row_index));
+  std::vector<const KernelRunner*> with;
+  for (const KernelRunner& runner : runners_)
+    if (with.empty() || has_own_form(runner.kernel, *planned.pass)) with.push_back(&runner);
+  for (const KernelRunner* own : with) results.push_back(own->runner->run(step, host, walk.rows, row_index));
   const MirrorContext context{model_,    planned.constants, walk.rows[row_index],
                               row_index, planned.item,      kProbeSpeedAllowed_m_s};
   std::optional<FloatLoss> loss;
@@ -274,16 +275,16 @@ void Validator<T>::check_step(std::size_t step, std::uint32_t substep, Walk& wal
   for (const BufferId id : results[0].outputs)
     if (!runners_[0].runner->use_of(step, id).reads) poison_mirror(id, host);
   run_mirror(planned, context, host);
-  if (planned.pass->settle_order) {
-    planned.pass->settle_order(results[0].buffers);
-    planned.pass->settle_order(host);
+  if (const auto settle = planned.pass->settle_order; settle != nullptr) {
+    for (PassResult<T>& result : results) settle(result.buffers);
+    settle(host);
   }
   const std::string check = std::string(planned.pass->name).append(block_suffix(planned.block));
   for (std::size_t r = 1; r < results.size(); ++r) {
     HostBuffers<T> expected = host;
     for (const BufferId id : results[r].outputs)
-      if (runners_[r].runner->use_of(step, id).reads) restore_poisoned(id, before, expected);
-    check_outputs(check + runners_[r].suffix, walk, before, results[r], expected, loss);
+      if (with[r]->runner->use_of(step, id).reads) restore_poisoned(id, before, expected);
+    check_outputs(check + with[r]->suffix, walk, before, results[r], expected, loss);
   }
   check_outputs(check, walk, before, results[0], host, loss);
   if (planned.pass->swaps_state) swap_state(host);

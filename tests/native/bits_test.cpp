@@ -66,6 +66,43 @@ TEST(NativeBits, AnyNumberOfThreadsEqualsTheReference) {
   }
 }
 
+/// Bands of very different heights, down to the fewest rows, as where a core is shared; and small ones that
+/// have no rows before those which read what is below.
+TEST(NativeBits, BandsOfAnyHeightsEndInTheSameBits) {
+  for (const char* scene : {"1", "5"}) {
+    const Model model = model_of(scene, {"cloth.resolution=61"});
+    const State expected = reference(model, 4);
+    for (const std::vector<double>& speeds :
+         std::vector<std::vector<double>>{{1, 0.01, 1}, {0.01, 1, 0.02}, {3, 1, 2}}) {
+      SCOPED_TRACE(fmt::format("scene {}, speeds {}", scene, speeds));
+      expect_same(vectorised(model, 4, {.threads = 3, .vector = {}, .speeds = speeds}), expected);
+    }
+  }
+}
+
+/// Where something is pinned native looks at motion only when the sweep's ways allow somebody to leave the
+/// lists' room: the lists are made as often as the reference makes them, and those held back are held back.
+TEST(NativeBits, ListsAreMadeInTheSubstepsOfTheReference) {
+  const std::vector<std::pair<const char*, std::vector<std::string>>> cases{
+      {"1", {"cloth.resolution=33", "self_collision.thickness=0.002"}},
+      {"3", {"cloth.resolution=33", "self_collision.thickness=0.02", "wind.velocity=[8,0,12]"}},
+      {"6", {"cloth.resolution=33", "self_collision.thickness=0.01", "solver.substeps=60"}}};
+  for (const auto& [scene, set] : cases) {
+    SCOPED_TRACE(fmt::format("{} {}", scene, fmt::join(set, " ")));
+    const Model model = model_of(scene, set);
+    const auto right = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
+    const State expected = run(*right, 40);
+    ASSERT_TRUE(right->self_collision());
+    EXPECT_GT(right->self_collision()->lists_built, 0u);
+    for (const std::uint32_t threads : {1u, 3u}) {
+      const auto got = make_native_simulation(model, find_solver("leapfrog"), "f32", {.threads = threads});
+      expect_same(run(*got, 40), expected);
+      EXPECT_EQ(got->self_collision()->lists_built, right->self_collision()->lists_built);
+      EXPECT_EQ(got->self_collision()->held_back, right->self_collision()->held_back);
+    }
+  }
+}
+
 /// Every switch on and off: what a variant leaves out must be nothing.
 TEST(NativeBits, EveryEffectByItselfEqualsTheReference) {
   const std::vector<std::vector<std::string>> variants{
@@ -186,6 +223,31 @@ TEST(NativeBits, EveryEffectOfTheExampleScenesEqualsTheReference) {
     if (model.scene.tearing) {
       EXPECT_NE(expected.broken_links, from.broken_links) << "nothing tore";
     }
+  }
+}
+
+/// From the start of scenes in which the limit, or the first break, comes into play after some time: native
+/// looks at links only where the sweep's ways allow them to be there, and must not come too late.
+TEST(NativeBits, LimitAndTearingBeginInTheSubstepOfTheReference) {
+  struct Case {
+    const char* scene;
+    std::vector<std::string> set;
+    int frames;
+  };
+  const std::vector<Case> cases{
+      {"tearing", {"cloth.resolution=33"}, 45},
+      {"1", {"cloth.resolution=33", "material.strain_limit=0.01", "material.membrane=100"}, 10},
+      {"1", {"cloth.resolution=33", "material.strain_limit=0.3", "material.membrane=2"}, 10}};
+  for (const Case& one : cases) {
+    SCOPED_TRACE(fmt::format("{} {}", one.scene, fmt::join(one.set, " ")));
+    const Model model = model_of(one.scene, one.set);
+    const State expected = reference(model, one.frames);
+    std::vector<std::string> unlimited = one.set;
+    unlimited.push_back(model.scene.tearing ? "tearing.strain=10" : "material.strain_limit=0");
+    EXPECT_NE(state_hash(reference(model_of(one.scene, unlimited), one.frames)), state_hash(expected))
+        << "nothing came near its limit";
+    for (const std::uint32_t threads : {1u, 3u})
+      expect_same(vectorised(model, one.frames, {.threads = threads, .vector = {}}), expected);
   }
 }
 

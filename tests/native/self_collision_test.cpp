@@ -203,6 +203,50 @@ TEST(NativeSelfCollision, CountsCellsAsTheMirror) {
   EXPECT_GT(close, 1000u);
 }
 
+// The lists are those of the mirrors, and contacts are looked at where they were made. Some 4 million entries
+// of all 36 pairs of edges and 6 triangles, in every region of a triangle and of two edges.
+TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
+  std::size_t entries = 0, touching = 0;
+  std::uint64_t seed = 100;
+  for (const auto [columns, rows] : {Size{5, 7}, Size{17, 18}, Size{33, 37}}) {
+    const Model model = sheet_model(columns, rows, seed % 2 == 0 ? 0.3 : 0.9);
+    const Plan plan = compile_plan(model, find_solver("leapfrog"));
+    const std::vector<NamedEngine> engines = engines_for(model, plan);
+    for (const Shape& shape : shapes()) {
+      SCOPED_TRACE(fmt::format("{} x {}, {}", columns, rows, shape.name));
+      HostBuffers<float> before = buffers_of(model, plan, shape, ++seed);
+      std::mt19937_64 random(seed);
+      std::normal_distribution<float> speed(0.0f, 2.0f);
+      for (glm::vec4& v : before[BufferId::velocity]) v = {speed(random), speed(random), speed(random), 0};
+      for (const Pass* earlier :
+           {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near, &pair_gather})
+        run_mirror(*earlier, model, before);
+      HostBuffers<float> expected = before;
+      for (const Pass* pass : {&surface_gather, &touch_weight, &surface_touch})
+        run_mirror(*pass, model, expected);
+      const std::vector<std::uint32_t> nothing = expected.words_of(BufferId::surface_sums);
+      run_mirror(surface_contact, model, expected);
+      for (const auto& [name, engine] : engines) {
+        SCOPED_TRACE(name);
+        const MirrorContext context{.model = model, .constants = {}, .row = kNoTime};
+        HostBuffers<float> got = before;
+        engine->load(got);
+        engine->look(surface_gather, context, got);
+        run_mirror(touch_weight, model, got);
+        engine->look(surface_touch, context, got);
+        engine->look(surface_contact, context, got);
+        expect_same_buffers(std::move(got), expected);
+      }
+      for (const std::uint32_t count : expected.words_of(BufferId::surface_count)) entries += count;
+      touching += expected.words_of(BufferId::surface_sums) != nothing;
+    }
+  }
+  EXPECT_GT(entries, 1'000'000u);
+  EXPECT_GT(touching, 12u);  // of 27 shapes
+  RecordProperty("entries", std::to_string(entries));
+  RecordProperty("touching", std::to_string(touching));
+}
+
 TEST(NativeSelfCollision, LooksNearAsTheMirror) {
   std::size_t far = 0, beside = 0, neither = 0;
   expect_as_mirror(patch_near, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},

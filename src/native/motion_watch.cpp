@@ -1,0 +1,58 @@
+// Rounding: a place in float is off by half a unit, which a particle may gain in every substep; what the
+// mirror computes of a way is off by some units of the way. The room is a hundredth less for it.
+#include "native/motion_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "passes/collision.h"
+#include "passes/passes.h"
+
+namespace weft::native {
+namespace {
+
+constexpr double kFaster = 1.25, kRounding = 4e-7, kLess = 0.99;
+
+}  // namespace
+
+bool sweep_watches_motion(const Plan& plan, const Model& model) {
+  if (!model.scene.self_collision || shares_motion(model)) return false;
+  // The others look, or change velocities alone.
+  static constexpr std::array kMovesNobody{&integrate,       &carry,          &pair_check,   &cell_count,
+                                           &cell_scan,       &cell_fill,      &cell_sort,    &patch_near,
+                                           &pair_gather,     &surface_gather, &touch_weight, &surface_touch,
+                                           &surface_contact, &self_contact};
+  return std::ranges::all_of(plan.steps, [](const PlanStep& step) {
+    return step.block != Block::substep || std::ranges::count(kMovesNobody, step.pass) > 0;
+  });
+}
+
+void MotionWatch::tell_sweeps(std::uint32_t substeps, float drift_s) {
+  used_m_ += substeps * way_m_;
+  if (drift_s > 0.0f) drift_s_ = drift_s;  // a frame ends with a kick alone
+}
+
+void MotionWatch::measured(float gone2, float speed2, float place2) {
+  const double way_m = kFaster * std::sqrt(double{speed2}) * drift_s_ + 1e-4 * room_most_m_;
+  leap2_ = static_cast<float>(kLess * way_m * way_m);
+  way_m_ = way_m + kRounding * (std::sqrt(double{place2}) + room_most_m_);
+  room_m_ = kLess * room_most_m_ - std::sqrt(double{gone2});
+  used_m_ = 0.0;
+  leapt_ = false;
+}
+
+void MotionWatch::lists_made() {
+  if (leap2_ == kNoLeap) return;  // nobody has been measured
+  room_m_ = kLess * room_most_m_;
+  used_m_ = 0.0;
+}
+
+void MotionWatch::forget() {
+  leap2_ = kNoLeap;
+  room_m_ = -1.0;
+  used_m_ = 0.0;
+  leapt_ = false;
+}
+
+}  // namespace weft::native
