@@ -95,7 +95,8 @@ const Command bench_command{"bench", "times the passes at 64 to 1024 particles a
                             "  weft bench 1 4 --resolution 256\n"
                             "  weft bench 1 --format json > bench.json\n"
                             "  weft bench 1 --device native      (all backends side by side)\n"
-                            "  weft bench 5 --effects            (each effect with and without it)",
+                            "  weft bench 5 --effects            (each effect with and without it)\n"
+                            "  weft bench 1 --effects --device native",
                             add_bench_options, run_bench};
 
 }  // namespace weft::cli

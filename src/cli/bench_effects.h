@@ -4,7 +4,8 @@
 
 namespace weft::cli {
 
-/// @throws Error(Exit::no_device) without a Vulkan device that has timestamps
+/// On native where that is the default or named, else on a Vulkan device.
+/// @throws Error(Exit::no_device) for a Vulkan device without timestamps, or without any that was named
 Exit run_effect_bench(const Options&);
 
 }  // namespace weft::cli

@@ -25,19 +25,21 @@ struct EffectBenchOptions {
 
 /// One side of a comparison.
 struct EffectSide {
-  Sample frame_ms;               ///< of a frame, by the device's timestamps
+  Sample frame_ms;               ///< of a frame, by the device's timestamps; native: by the wall clock
+  Sample processor_ms;           ///< of all threads; NaN where no processor computes
   std::string kernel;            ///< what runs `integrate`, and who decided
   std::uint64_t bytes = 0;       ///< allocated by the simulation
-  std::uint64_t dispatches = 0;  ///< of a frame
+  std::uint64_t dispatches = 0;  ///< of a frame; native: steps of the plan
   std::uint32_t automatic = 0;   ///< substeps a frame that the scene asks for by itself
 };
 
 struct EffectRow {
   std::string effect;
-  bool in_scene = false;     ///< else it was added and has nothing to do
-  EffectSide with, without;  ///< with equal substeps: those that `with` asks for
-  double cost = 0;           ///< median of the turns' (with − without)/without
-  double cost_spread = 0;    ///< half the distance between the quartiles of that
+  bool in_scene = false;      ///< else it was added and has nothing to do
+  EffectSide with, without;   ///< with equal substeps: those that `with` asks for
+  double cost = 0;            ///< median of the turns' (with − without)/without
+  double cost_spread = 0;     ///< half the distance between the quartiles of that
+  double processor_cost = 0;  ///< cost by processor_ms; NaN likewise
   /// Without it over the same in kernels that lack the effect's text, less one; NaN where it is no constant
   /// of theirs, or the program has none.
   double absent_cost = std::numeric_limits<double>::quiet_NaN();
@@ -57,5 +59,11 @@ struct EffectBenchReport {
 /// @throws Error(Exit::no_device) when the device has no timestamps; Error(Exit::usage) for an unknown effect
 EffectBenchReport bench_effects(gpu::Device&, const Scene&, const EffectBenchOptions&,
                                 const std::function<void(const std::string&)>& note);
+
+/// The same on the CPU's vector units, in as many threads as are the fastest while the scene is brought to
+/// its state.
+/// @throws Error(Exit::usage) when native does not run the scene, or for an unknown effect
+EffectBenchReport bench_effects_on_native(const Scene&, const EffectBenchOptions&,
+                                          const std::function<void(const std::string&)>& note);
 
 }  // namespace weft
