@@ -84,9 +84,10 @@ TEST_F(OwnThreadTest, BeginsWhatIsOwedAndNoMore) {
   EXPECT_EQ(std::lround(simulation->time_s() / kFrame_s), 53);
 }
 
-// Nobody may see half a frame: each picture's positions are the bits of one frame's end.
+// Nobody may see half a frame: each picture's positions are the bits of one frame's end. Eight frames more are
+// owed at each look, so that there are several looks however fast frames are and however slow looks.
 TEST_F(OwnThreadTest, WhatIsShownIsOneFramesState) {
-  constexpr int kFrames = 40;
+  constexpr int kFrames = 40, kOwedALook = 8;
   std::vector<State> at_end;
   const auto reference = native();
   at_end.push_back(reference->read());
@@ -95,11 +96,12 @@ TEST_F(OwnThreadTest, WhatIsShownIsOneFramesState) {
     reference->advance(kFrame_s, reference->plan().substeps);
     at_end.push_back(reference->read());
   }
-  double owed_frames = kFrames;
+  double owed_frames = 0.0;
   int looks = 0;
   long latest = 0;
   for (const Clock::time_point began = Clock::now(); latest < kFrames && seconds_since(began) < 60.0;
        ++looks) {
+    if (kOwedALook * looks < kFrames) owed_frames += kOwedALook;
     owed_frames -= simulation->go_on(owed(*simulation, owed_frames)).frames;
     simulation->show_latest(0.01);
     const long frame = std::lround(simulation->shown_time_s() / kFrame_s);
@@ -114,7 +116,7 @@ TEST_F(OwnThreadTest, WhatIsShownIsOneFramesState) {
     ASSERT_EQ(different, 0u) << "frame " << frame;
   }
   EXPECT_EQ(latest, kFrames);
-  EXPECT_GT(looks, 3);
+  EXPECT_GE(looks, kFrames / kOwedALook);
   EXPECT_EQ(state_hash(simulation->read()), state_hash(at_end.back()));
 }
 
@@ -178,7 +180,8 @@ TEST_F(OwnThreadTest, AWindowsRunHasTheBitsOfSimulate) {
 }
 
 // The pacer's promise with a thread beside it: a picture that takes 70 ms costs no simulated time. A cloth of
-// 16 x 16 takes about 0.2 ms a frame; a machine that is busy may lose some of it, not two thirds.
+// 16 x 16 takes about 0.2 ms a frame; a machine that is busy may lose some of it, not half. Without that thread
+// each picture would find one frame done: 17 ms of 70.
 TEST_F(OwnThreadTest, ALongPictureCostsNoTime) {
   RunningScene running(device(), {{"cloth.resolution=16"}}, "1", {}, ComputeOn::native);
   Clock::time_point latest = Clock::now();
@@ -191,7 +194,7 @@ TEST_F(OwnThreadTest, ALongPictureCostsNoTime) {
     latest = now;
   }
   const double wall_s = seconds_since(began);
-  EXPECT_GT(running.simulation().time_s(), 0.8 * wall_s - 2.0 * kFrame_s) << "of " << wall_s << " s";
+  EXPECT_GT(running.simulation().time_s(), 0.5 * wall_s - 2.0 * kFrame_s) << "of " << wall_s << " s";
   EXPECT_LT(running.simulation().time_s(), wall_s + 2.0 * kFrame_s);
 }
 
