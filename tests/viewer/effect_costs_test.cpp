@@ -38,7 +38,7 @@ TEST(PassesOfEffect, AreWhatThePlanLosesWithoutIt) {
 class EffectCostsTest : public test::GpuTest {};
 
 TEST_F(EffectCostsTest, ATrialTellsEveryEffectAndLeavesNothing) {
-  RunningScene running(device(), {{"cloth.resolution=24"}}, "1");
+  RunningScene running(device(), {{"cloth.resolution=12"}}, "1");
   running.apply(scene_with_everything());
   running.set_paused(true);
   const auto frame = [&] {
@@ -65,7 +65,7 @@ TEST_F(EffectCostsTest, ATrialTellsEveryEffectAndLeavesNothing) {
   EXPECT_EQ(allocator.live_bytes(), bytes);
   EXPECT_EQ(state_hash(running.simulation().read()), hash) << "the running cloth is untouched";
   Scene finer = running.scene();
-  finer.cloth.resolution = 26;
+  finer.cloth.resolution = 14;
   running.apply(finer);
   costs.follow(running);
   EXPECT_EQ(costs.text("wind"), "") << "forgotten with the plan";

@@ -84,8 +84,8 @@ TEST_F(OwnThreadTest, BeginsWhatIsOwedAndNoMore) {
   EXPECT_EQ(std::lround(simulation->time_s() / kFrame_s), 53);
 }
 
-// Nobody may see half a frame: each picture's positions are the bits of one frame's end. Eight frames more are
-// owed at each look, so that there are several looks however fast frames are and however slow looks.
+// Nobody may see half a frame: each picture's positions are the bits of one frame's end. Eight frames more
+// are owed at each look, so that there are several looks however fast frames are and however slow looks.
 TEST_F(OwnThreadTest, WhatIsShownIsOneFramesState) {
   constexpr int kFrames = 40, kOwedALook = 8;
   std::vector<State> at_end;
@@ -180,8 +180,8 @@ TEST_F(OwnThreadTest, AWindowsRunHasTheBitsOfSimulate) {
 }
 
 // The pacer's promise with a thread beside it: a picture that takes 70 ms costs no simulated time. A cloth of
-// 16 x 16 takes about 0.2 ms a frame; a machine that is busy may lose some of it, not half. Without that thread
-// each picture would find one frame done: 17 ms of 70.
+// 16 x 16 takes about 0.2 ms a frame; a machine that is busy may lose some of it, not half. Without that
+// thread each picture would find one frame done: 17 ms of 70.
 TEST_F(OwnThreadTest, ALongPictureCostsNoTime) {
   RunningScene running(device(), {{"cloth.resolution=16"}}, "1", {}, ComputeOn::native);
   Clock::time_point latest = Clock::now();

@@ -11,6 +11,7 @@
 #include "gpu/buffer.h"
 #include "gpu_fixture.h"
 #include "model/measures.h"
+#include "support/full_run.h"
 
 namespace weft {
 namespace {
@@ -323,6 +324,7 @@ TEST_F(RunningSceneTest, AHundredChangesLeaveNothingBehind) {
 // The window must not stall longer than 200 ms when the resolution changes around 256² (docs/viewer.md has
 // the measured time). The quickest of a few changes counts: others may be using the machine.
 TEST_F(RunningSceneTest, AChangeOfResolutionIsQuick) {
+  if (!test::full_run()) GTEST_SKIP() << "looks at the time";
   RunningScene running = open("1", 256);
   running.step();
   running.set_paused(true);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "render/image.h"
+#include "support/full_run.h"
 #include "viewer/window_fixture.h"
 
 namespace weft {
@@ -197,7 +198,9 @@ TEST_F(WindowTest, TheResolutionSliderCarriesTheClothOver) {
   expect_silence(window);
 }
 
-TEST_F(WindowTest, AHundredScenesAndResolutionsLeaveNothingBehind) {
+// A hundred rounds in the full run.
+TEST_F(WindowTest, ManyScenesAndResolutionsLeaveNothingBehind) {
+  const int rounds = test::full_run() ? 100 : 20;
   WindowUnderTest window({"1", "--resolution", "20"});
   const auto settle = [&](const char* scene) {
     window.key(scene);
@@ -216,8 +219,8 @@ TEST_F(WindowTest, AHundredScenesAndResolutionsLeaveNothingBehind) {
   for (int k = 0; k < 8; ++k) once(k);  // every pipeline and block has been made once
   const double before = settle("1");
   const double rebuilds = window.number("rebuilds");
-  for (int k = 0; k < 100; ++k) once(k);
-  EXPECT_GE(window.number("rebuilds"), rebuilds + 200) << "a scene and a resolution in each round";
+  for (int k = 0; k < rounds; ++k) once(k);
+  EXPECT_GE(window.number("rebuilds"), rebuilds + 2 * rounds) << "a scene and a resolution in each round";
   EXPECT_EQ(settle("1"), before) << "live allocations";
   expect_silence(window);
 }
