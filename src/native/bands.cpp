@@ -146,7 +146,7 @@ void Bands::sweep_rows(Band& band, const ClothRows& rows, bool goes_on, const Ki
                                     .carried = band.carried.get(),
                                     .half_velocity = half_velocity,
                                     .bodies = bodies_ ? bodies_->bodies(band.drifted.data()) : Bodies{},
-                                    .links = watch_ ? LinkLeap{watch_->leap2(), &band.leapt} : LinkLeap{},
+                                    .leap = watch_ ? LeapAsked{watch_->leap2(), &band.leapt} : LeapAsked{},
                                     .put_off = band.put_off.get()});
 }
 

@@ -45,7 +45,7 @@ class Bands {
     Floats put_off;                      ///< Sweep's, where there is contact
     std::vector<Drifted> drifted;        ///< likewise with bodies
     Floats handed;                       ///< two copies of four rows
-    std::uint32_t leapt = 0;             ///< LinkLeap's, in the present sweeps
+    std::uint32_t leapt = 0;             ///< LeapAsked's, in the present sweeps
     std::atomic<std::uint32_t> done{0};  ///< states handed on since the sweeps began
     ThreadWork work;                     ///< since speeds were learnt
   };

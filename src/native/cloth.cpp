@@ -187,7 +187,8 @@ Cloth::Cloth(const Model& model, std::span<const Constant> constants, std::size_
 }
 
 std::uint64_t Cloth::bytes() const {
-  return padded_place(rows_) * row_floats() * sizeof(float) + blocks_.bytes() +
+  const std::size_t states = kept_ ? 2 : 1;
+  return states * padded_place(rows_) * row_floats() * sizeof(float) + blocks_.bytes() +
          relative_inverse_mass_.size() * sizeof(float) + broken_links_.size() * sizeof(std::uint32_t);
 }
 
@@ -202,6 +203,20 @@ std::vector<float*> Cloth::padded_rows() {
   for (std::size_t place = 0; place < padded_place(rows_); ++place)
     rows.push_back(state_.get() + place * row_floats());
   return rows;
+}
+
+void Cloth::make_keep() {
+  if (kept_ == nullptr) kept_ = make_floats(padded_place(rows_) * row_floats());
+}
+
+void Cloth::keep(std::size_t first, std::size_t last) {
+  for (std::size_t j = first; j < last; ++j)
+    std::copy_n(row(j), row_floats(), kept_.get() + padded_place(j) * row_floats());
+}
+
+void Cloth::take_back(std::size_t first, std::size_t last) {
+  for (std::size_t j = first; j < last; ++j)
+    std::copy_n(kept_.get() + padded_place(j) * row_floats(), row_floats(), row(j));
 }
 
 void Cloth::point_at_blocks() {

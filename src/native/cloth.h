@@ -84,6 +84,11 @@ class Cloth {
   /// Takes who is fixed and which links are broken; returns whether anything was otherwise.
   bool take_changes(const HostBuffers<float>& buffers);
   void set_relative_inverse_mass(std::uint32_t particle, float relative);
+  /// Makes room for keep.
+  void make_keep();
+  /// Rows [first, last) of all cloths to where take_back finds them.
+  void keep(std::size_t first, std::size_t last);
+  void take_back(std::size_t first, std::size_t last);
   void place(std::uint32_t particle, const float (&x)[3], const float (&v)[3]);
   /// By particle; empty where nothing tears. Whoever breaks one says so to refresh_around.
   std::span<std::uint32_t> broken_links() { return broken_links_; }
@@ -97,7 +102,7 @@ class Cloth {
   Sheet sheet_{};
   Outside outside_{};
   std::uint32_t variant_ = 0;
-  Floats state_;
+  Floats state_, kept_;
   std::vector<float> relative_inverse_mass_;
   std::vector<std::uint32_t> broken_links_;
   Blocks blocks_;

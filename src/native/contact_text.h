@@ -96,7 +96,7 @@ WEFT_INLINE Mask near_bodies(const Near& near, Vec3 x0, Vec3 x1) {
 /// What else than floor and spheres a sweep asks about.
 struct Asked {
   bool bodies, links;
-  float leap2;  ///< LinkLeap's
+  float leap2;  ///< LeapAsked's
 };
 
 /// Whether floor, spheres or bodies may change anything of a drift from x0 by `way` to x1. A dozen operations

@@ -130,10 +130,22 @@ Bands& Engine::bands(std::uint32_t count) {
   auto& made = bands_[count];
   if (made == nullptr)
     made = std::make_unique<Bands>(cloth_, kernels_, speeds_, count, half_velocity_.get(), body_touch_.get(),
-                                   links_            ? links_.get()
-                                   : self_collision_ ? self_collision_->watch()
-                                                     : nullptr);
+                                   watch());
   return *made;
+}
+
+/// Whom sweeps have to tell; null: nobody.
+LeapWatch* Engine::watch() {
+  if (links_) return links_.get();
+  return self_collision_ ? self_collision_->watch() : nullptr;
+}
+
+template <class Act>
+void Engine::share_rows(const Act& act) {
+  const std::uint32_t threads = choice_.best();
+  crew(threads).run(threads, [&](std::uint32_t own) {
+    act(own * cloth_.rows() / threads, (own + 1) * cloth_.rows() / threads);
+  });
 }
 
 void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t count) {
@@ -153,14 +165,28 @@ void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t co
   }
 }
 
+std::uint32_t Engine::sweep_ahead(const KickTable& table, std::uint32_t first, std::uint32_t most) {
+  constexpr std::uint32_t kLeast = 4, kMost = 64;  // what is kept costs as much as half a substep
+  LeapWatch* const watch = this->watch();
+  const std::uint32_t count = watch != nullptr ? std::min({most, watch->quiet_substeps(), kMost}) : 0;
+  if (count < kLeast) return 0;
+  cloth_.make_keep();
+  share_rows([&](std::size_t begin, std::size_t end) { cloth_.keep(begin, end); });
+  sweep(table, first, count);
+  if (!watch->has_leapt()) {
+    watch->tell_ahead(count);
+    return count;
+  }
+  watch->take_back(count);
+  share_rows([&](std::size_t begin, std::size_t end) { cloth_.take_back(begin, end); });
+  return 0;
+}
+
 void Engine::load(const HostBuffers<float>& buffers) {
   if (links_) links_->forget();
   if (self_collision_) self_collision_->forget_motion();
   if (cloth_.take_changes(buffers) && xpbd_) xpbd_->take_masses();
-  const std::uint32_t threads = choice_.best();
-  crew(threads).run(threads, [&](std::uint32_t own) {
-    cloth_.load(buffers, own * cloth_.rows() / threads, (own + 1) * cloth_.rows() / threads);
-  });
+  share_rows([&](std::size_t first, std::size_t last) { cloth_.load(buffers, first, last); });
 }
 
 void Engine::run(const PlanStep& step, const Kick& kick) {

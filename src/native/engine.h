@@ -53,6 +53,9 @@ class Engine {
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }
   /// Sweeps rows [first, first + count) of a frame's schedule.
   void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count);
+  /// Sweeps as many of `most` rows from `first` on as need nobody to look in between (LeapWatch). Returns
+  /// how many; 0, with nothing changed, where each has to be swept by itself.
+  std::uint32_t sweep_ahead(const KickTable& table, std::uint32_t first, std::uint32_t most);
   /// After one substep's sweep: whether the strain limit, or tear, may have anything to do in it.
   bool links_are_near(const Kick& kick);
   void write_surface(const SurfaceTarget& target);
@@ -63,6 +66,10 @@ class Engine {
  private:
   Bands& bands(std::uint32_t count);
   Crew& crew(std::uint32_t count);
+  LeapWatch* watch();
+  /// In all threads, act(first, last) with rows of all cloths.
+  template <class Act>
+  void share_rows(const Act& act);
   /// What the plan's solver needs beside the cloth.
   void furnish(const Model& model, const Plan& plan);
 

@@ -108,8 +108,8 @@ struct Bodies {
   const void* self;
 };
 
-/// What the sweep tells of ways: docs in native/link_watch.h.
-struct LinkLeap {
+/// What the sweep tells of ways: native/leap_watch.h.
+struct LeapAsked {
   float leap2;           ///< [m²]
   std::uint32_t* leapt;  ///< set where a particle goes so far; null: nobody asks
 };
@@ -126,7 +126,7 @@ struct Sweep {
   /// Velocity Verlet's velocities half a step behind, by row of the cloth: 3·stride each; null in leapfrog.
   float* half_velocity;
   Bodies bodies;
-  LinkLeap links;
+  LeapAsked leap;
   float* put_off;  ///< room for vectors that contact moves after their row: put_off_floats of them
 };
 /// Floats that Sweep::put_off has room for: a vector of four columns takes the most.

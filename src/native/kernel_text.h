@@ -289,11 +289,11 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Wa
 
 WEFT_INLINE Acting acting_of(const Sweep& sweep) {
   const bool bodies = sweep.bodies.solid_count > 0 || sweep.bodies.has_meshes,
-             links = sweep.links.leapt != nullptr;
+             links = sweep.leap.leapt != nullptr;
   Acting acting{
-      sweep.outside, *sweep.kick, sweep.bodies, sweep.links.leapt, {bodies, links, sweep.links.leap2}};
+      sweep.outside, *sweep.kick, sweep.bodies, sweep.leap.leapt, {bodies, links, sweep.leap.leap2}};
   float& leap2 = acting.kick.clear.leap2;
-  if (links && sweep.links.leap2 < leap2) leap2 = sweep.links.leap2;
+  if (links && sweep.leap.leap2 < leap2) leap2 = sweep.leap.leap2;
   return acting;
 }
 

@@ -24,7 +24,12 @@ LinkWatch::LinkWatch(Cloth& cloth, const Kernels& kernels, const Model& model)
 void LinkWatch::forget() {
   leap2_ = kNoLeap;
   left_ = 0;
+  leapt_ = one_by_one_ = false;
+}
+
+void LinkWatch::take_back(std::uint32_t) {
   leapt_ = false;
+  one_by_one_ = true;
 }
 
 LinkLook LinkWatch::look(Crew& crew, std::uint32_t threads) {

@@ -20,7 +20,10 @@ class LinkWatch final : public LeapWatch {
  public:
   LinkWatch(Cloth& cloth, const Kernels& kernels, const Model& model);
 
-  void tell_sweeps(std::uint32_t, float) override {}  // is_near counts them
+  void tell_sweeps(std::uint32_t, float) override {}  // is_near counts them, or tell_ahead
+  void tell_ahead(std::uint32_t substeps) override { left_ -= substeps; }
+  void take_back(std::uint32_t) override;
+  std::uint32_t quiet_substeps() const override { return leapt_ || one_by_one_ ? 0 : left_; }
   /// Once a substep, after its sweep: whether limit or tearing may have anything to do.
   bool is_near(const Kick& kick, Crew& crew, std::uint32_t threads);
   /// Particles have been moved otherwise.
@@ -34,6 +37,7 @@ class LinkWatch final : public LeapWatch {
   std::vector<float*> rows_;
   float structural_m_, structural_m2_, shear_m_, shear_m2_;  ///< the limits, as the mirrors have them
   std::uint32_t left_ = 0;                                   ///< substeps in which nobody has to look
+  bool one_by_one_ = false;                                  ///< somebody leaps before long
 };
 
 }  // namespace weft::native

@@ -12,7 +12,7 @@
 namespace weft::native {
 namespace {
 
-constexpr double kFaster = 1.25, kRounding = 4e-7, kLess = 0.99;
+constexpr double kFaster = 1.25, kRounding = 4e-7, kLess = 0.99, kSubstepsMost = 4096.0;
 
 }  // namespace
 
@@ -33,13 +33,25 @@ void MotionWatch::tell_sweeps(std::uint32_t substeps, float drift_s) {
   if (drift_s > 0.0f) drift_s_ = drift_s;  // a frame ends with a kick alone
 }
 
+void MotionWatch::take_back(std::uint32_t substeps) {
+  used_m_ -= substeps * way_m_;
+  leapt_ = false;
+  one_by_one_ = true;
+}
+
+/// The ways of all but the last must fit into the room: after that one somebody may look.
+std::uint32_t MotionWatch::quiet_substeps() const {
+  if (leap2_ == kNoLeap || one_by_one_ || !all_are_in()) return 0;
+  return 1 + static_cast<std::uint32_t>(std::min((room_m_ - used_m_) / way_m_, kSubstepsMost));
+}
+
 void MotionWatch::measured(float gone2, float speed2, float place2) {
   const double way_m = kFaster * std::sqrt(double{speed2}) * drift_s_ + 1e-4 * room_most_m_;
   leap2_ = static_cast<float>(kLess * way_m * way_m);
   way_m_ = way_m + kRounding * (std::sqrt(double{place2}) + room_most_m_);
   room_m_ = kLess * room_most_m_ - std::sqrt(double{gone2});
   used_m_ = 0.0;
-  leapt_ = false;
+  leapt_ = one_by_one_ = false;
 }
 
 void MotionWatch::lists_made() {
@@ -52,7 +64,7 @@ void MotionWatch::forget() {
   leap2_ = kNoLeap;
   room_m_ = -1.0;
   used_m_ = 0.0;
-  leapt_ = false;
+  leapt_ = one_by_one_ = false;
 }
 
 }  // namespace weft::native

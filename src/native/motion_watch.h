@@ -19,6 +19,9 @@ class MotionWatch final : public LeapWatch {
   explicit MotionWatch(double room_m) : room_most_m_(room_m) {}
 
   void tell_sweeps(std::uint32_t substeps, float drift_s) override;
+  void tell_ahead(std::uint32_t) override {}  // tell_sweeps has counted them
+  void take_back(std::uint32_t substeps) override;
+  std::uint32_t quiet_substeps() const override;
   /// Whether everybody is known to be in the room.
   bool all_are_in() const { return !leapt_ && used_m_ <= room_m_; }
   /// What a look has found: the squares of the longest way from where the lists were made [m²], of the
@@ -31,8 +34,9 @@ class MotionWatch final : public LeapWatch {
 
  private:
   double room_most_m_, room_m_ = -1.0, used_m_ = 0.0;
-  double way_m_ = 0.0;    ///< that anybody goes in a substep, with what rounding adds
-  float drift_s_ = 0.0f;  ///< of the latest sweep
+  double way_m_ = 0.0;       ///< that anybody goes in a substep, with what rounding adds
+  float drift_s_ = 0.0f;     ///< of the latest sweep
+  bool one_by_one_ = false;  ///< somebody leaps before long
 };
 
 }  // namespace weft::native

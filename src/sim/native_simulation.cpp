@@ -47,8 +47,11 @@ class NativeSimulation final : public CpuSimulation<float> {
  private:
   void run_substeps(std::uint32_t first, std::uint32_t count) override {
     if (only_sweeps_) return sweep(Block::substep, first, count);
-    for (std::uint32_t substep = first; substep < first + count; ++substep)
-      run_stages(Block::substep, substep);
+    for (std::uint32_t substep = first, end = first + count; substep < end;) {
+      const std::uint32_t ahead = sweep_ahead(substep, end - substep);
+      if (ahead == 0) run_stages(Block::substep, substep);
+      substep += std::max(ahead, 1u);
+    }
   }
   /// With positions and velocities in the buffers, as watch and keep_sound find them.
   void run_frame_end() override { run_stages(Block::frame_end, frame_.substeps); }
@@ -80,11 +83,34 @@ class NativeSimulation final : public CpuSimulation<float> {
     }
   }
 
+  bool is_swept(const PlanStep& step) const {
+    return native::means_of(*step.pass, plan_) == native::Means::sweep;
+  }
+
+  /// Sweeps as many substeps as have nothing else to do; returns how many. A frame's first has:
+  /// self-collision makes its lists.
+  std::uint32_t sweep_ahead(std::uint32_t first, std::uint32_t most) {
+    const auto has_other_work = [this](const PlanStep& step) {
+      return step.block == Block::substep && step.pass->groups_word && has_work(step);
+    };
+    if (!sweeps_ahead_ || first == 0 || std::ranges::any_of(plan_.steps, has_other_work)) return 0;
+    need_rows();
+    const Clock::time_point began = Clock::now();
+    const std::uint32_t count = engine_.sweep_ahead(table_, first, most);
+    if (count == 0) return 0;
+    buffers_current_ = false;
+    count_swept(Block::substep, count, ms_since(began));
+    const auto up_to = [](std::uint32_t substeps, std::uint32_t interval) {
+      return (substeps + interval - 1) / interval;
+    };
+    for (const PlanStep& step : plan_.steps)
+      if (step.block == Block::substep && !is_swept(step))
+        this->count(step, up_to(first + count, step.interval) - up_to(first, step.interval), 0.0);
+    return count;
+  }
+
   /// The steps of the block's sweep, in so many substeps.
   void sweep(Block block, std::uint32_t first, std::uint32_t count) {
-    const auto swept = [&](const PlanStep& step) {
-      return step.block == block && native::means_of(*step.pass, plan_) == native::Means::sweep;
-    };
     need_rows();
     if (contact_follows_) {  // it reads where the drift began
       need_buffers();
@@ -93,8 +119,12 @@ class NativeSimulation final : public CpuSimulation<float> {
     const Clock::time_point began = Clock::now();
     engine_.sweep(table_, first, count);
     buffers_current_ = false;
-    // They run into each other: each counts alike.
-    const double ms = ms_since(began) / static_cast<double>(std::ranges::count_if(plan_.steps, swept));
+    count_swept(block, count, ms_since(began));
+  }
+  /// The steps run into each other: each counts alike.
+  void count_swept(Block block, std::uint32_t count, double all_ms) {
+    const auto swept = [&](const PlanStep& step) { return step.block == block && is_swept(step); };
+    const double ms = all_ms / static_cast<double>(std::ranges::count_if(plan_.steps, swept));
     for (const PlanStep& step : plan_.steps)
       if (swept(step)) this->count(step, count, ms);
   }
@@ -174,6 +204,12 @@ class NativeSimulation final : public CpuSimulation<float> {
     only_sweeps_ = std::ranges::all_of(plan_.steps, [this](const PlanStep& step) {
       return step.block != Block::substep || native::means_of(*step.pass, plan_) == native::Means::sweep;
     });
+    sweeps_ahead_ = native::sweep_watches_motion(plan_, model_) ||
+                    (native::sweep_watches_links(plan_, model_) &&
+                     std::ranges::all_of(plan_.steps, [this](const PlanStep& step) {
+                       return step.block != Block::substep || is_swept(step) || step.pass == &strain_limit ||
+                              step.pass == &tear;
+                     }));
     contact_follows_ = std::ranges::any_of(plan_.steps, [this](const PlanStep& step) {
       return step.pass == &mesh_contact && native::means_of(*step.pass, plan_) == native::Means::mirror;
     });
@@ -183,7 +219,7 @@ class NativeSimulation final : public CpuSimulation<float> {
   native::KickTable table_;
   /// Where the latest state is: in the kernels' rows, in the buffers, or in both.
   bool rows_current_ = true, buffers_current_ = true;
-  bool only_sweeps_ = false, contact_follows_ = false;
+  bool only_sweeps_ = false, sweeps_ahead_ = false, contact_follows_ = false;
 };
 
 }  // namespace

@@ -73,6 +73,60 @@ TEST(NativeMotionWatch, SaysThatAllAreInOnlyWhereTheyAre) {
     }
 }
 
+// Substeps may be swept at once where nobody would look in between: in each but the last everybody is in the
+// room, and what somebody leapt in is taken back as if it had not been.
+TEST(NativeMotionWatch, SweepsAheadOnlyWhereNobodyWouldLook) {
+  for (const double jolts : {0.0, 1e-4, 1e-3}) {
+    Crowd crowd(static_cast<std::uint64_t>(1e6 * jolts) + 7);
+    native::MotionWatch watch(kRoom_m);
+    std::uint32_t ahead = 0, taken_back = 0;
+    const auto step = [&] {
+      const float way = crowd.step(30.0f, jolts);
+      if (!(way * way < watch.leap2())) watch.tell_leap();
+    };
+    for (std::uint32_t substep = 0; substep < 4000;) {
+      if (!watch.all_are_in()) {
+        watch.measured(crowd.gone() * crowd.gone(), crowd.speed() * crowd.speed(), 1.0f);
+        if (crowd.gone() > kRoom_m) {
+          crowd.built = crowd.x;
+          watch.lists_made();
+        }
+      }
+      const Crowd before = crowd;
+      const std::uint32_t quiet = watch.quiet_substeps();
+      float farthest = 0.0f;
+      for (std::uint32_t k = 0; k < quiet; ++k) {
+        farthest = std::max(farthest, crowd.gone());
+        step();
+      }
+      watch.tell_sweeps(quiet, kDrift_s);
+      if (quiet > 0 && !watch.has_leapt()) {
+        ASSERT_LE(farthest, kRoom_m) << substep;
+        watch.tell_ahead(quiet);
+        ahead += quiet;
+        substep += quiet;
+        continue;
+      }
+      if (quiet > 0) {
+        const auto random = crowd.random;
+        crowd = before;
+        crowd.random = random;  // or the same leap would come for ever
+        watch.take_back(quiet);
+        ++taken_back;
+        EXPECT_TRUE(watch.all_are_in());
+        EXPECT_EQ(watch.quiet_substeps(), 0u) << "one by one, until somebody leaps";
+      }
+      step();
+      watch.tell_sweeps(1, kDrift_s);
+      ++substep;
+    }
+    EXPECT_GT(ahead, jolts == 0.0 ? 3000u : 100u);
+    if (jolts > 0.0) {
+      EXPECT_GT(taken_back, 0u);
+    }
+  }
+}
+
 /// Before anybody has been measured, and once they have been moved otherwise, a look is due; lists that are
 /// made do not change that.
 TEST(NativeMotionWatch, LooksWhereNobodyHasBeenMeasured) {
