@@ -197,6 +197,10 @@ bool Engine::look(const Pass& pass, const MirrorContext& context, HostBuffers<fl
   return self_collision_->run(pass, context, buffers, crew(choice_.best()), choice_.best());
 }
 
+bool Engine::make_empty_lists(HostBuffers<float>& buffers, const std::function<void()>& need_positions) {
+  return self_collision_->make_empty_lists(buffers, crew(choice_.best()), choice_.best(), need_positions);
+}
+
 bool Engine::links_are_near(const Kick& kick) {
   return !links_ || links_->is_near(kick, crew(choice_.best()), choice_.best());
 }

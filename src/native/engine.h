@@ -1,6 +1,7 @@
 // The vectorised CPU backend: a cloth, its kernels, its threads.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,6 +49,9 @@ class Engine {
   /// One step of Means::look. Where the pass reads positions in the buffers, too (SelfCollision::
   /// reads_buffers), they are those of the rows. Returns whether rows have changed.
   bool look(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers);
+  /// Before the first of the passes that make lists: whether they are empty and made herewith
+  /// (SelfCollision::make_empty_lists).
+  bool make_empty_lists(HostBuffers<float>& buffers, const std::function<void()>& need_positions);
   /// Valid until the next call of another function.
   RowThreads& threads_for_mirrors();
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }

@@ -239,10 +239,24 @@ struct LeashLook {
   float moved_squared_max, roam_max;      ///< [m², m]
   float surface_limit, roam_share;        ///< [m]
   std::uint32_t* left_over;               ///< room for the particles of these rows
-  bool measures;                          ///< whether the results after `stale` are wanted
   std::uint32_t stale;                    ///< result
-  float gone2, speed2, place2;            ///< results: the largest squares, as MotionWatch wants them
-  std::uint32_t unsound;                  ///< result: some place or speed is no number
+};
+
+/// The same rows where nothing is listed and something is pinned: the largest squares of the way from where
+/// lists were made [m²], of speeds [m²/s²] and of the distance from the origin [m²].
+struct MotionLook {
+  std::size_t stride, nx, first, last;
+  const float* const* rows;     ///< by row
+  const float* built;           ///< vec4 a particle
+  float gone2, speed2, place2;  ///< results
+  std::uint32_t unsound;        ///< result: some place or speed is no number
+};
+
+/// Rows [first, last) as vec4s, their last number 0.
+struct PlaceRows {
+  std::size_t stride, nx, first, last;
+  const float* const* rows;  ///< by row
+  float* places;             ///< vec4 a particle
 };
 
 /// Sixteen boxes of the tree of patches: four by four patches of a leaf, or four by four nodes of the level
@@ -301,7 +315,9 @@ struct Kernels {
   std::size_t (*touch_solids)(const SolidTouch&);  ///< returns how many particles it left over
   std::uint32_t (*tear)(const Tear&);              ///< returns whether anything broke
   void (*look_at_links)(LinkLook&);
-  std::size_t (*look_at_motion)(LeashLook&);   ///< returns how many particles are out of their room
+  std::size_t (*look_at_motion)(LeashLook&);  ///< returns how many particles are out of their room
+  void (*measure_motion)(MotionLook&);
+  void (*write_places)(const PlaceRows&);
   std::size_t (*look_at_patches)(PatchLook&);  ///< returns how many cells it left over
   void (*make_near_leaves)(const NearLook&);
   void (*make_near_levels)(const NearLook&);  ///< once all leaves are made

@@ -349,6 +349,8 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           tear,
           look_at_links,
           look_at_motion,
+          measure_motion,
+          write_places,
           look_at_patches,
           make_near_leaves,
           make_near_levels,

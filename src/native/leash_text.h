@@ -20,8 +20,7 @@ WEFT_INLINE Mask is_out(Vec3 motion, Vec most) { return dot(motion, motion) > mo
 std::size_t look_at_motion(LeashLook& look) {
   const Vec3 with_lists = splat3(look.with_lists), with_contacts = splat3(look.with_contacts);
   const Vec far2 = splat(look.moved_squared_max), roam = splat(look.roam_max);
-  Mask stale{}, unsound{};
-  Vec most_gone{}, most_speed{}, most_place{};
+  Mask stale{};
   Index left_over = 0;
   for (Index j = look.first; j < look.last; ++j)
     for (Index i = 0; i < look.nx; i += kLanes) {
@@ -30,14 +29,6 @@ std::size_t look_at_motion(LeashLook& look) {
       const Vec3 x = load3(look.rows[j] + kColumns + i, look.stride);
       const Vec3 gone = (x - load_vec4(look.built + 4 * particle, count)) - with_lists;
       stale = stale | (own & ~(dot(gone, gone) <= far2));
-      if (look.measures) {
-        const Vec3 v = load3(look.rows[j] + kColumns + i + 3 * look.stride, look.stride);
-        const Vec g2 = dot(gone, gone), v2 = dot(v, v), x2 = dot(x, x);
-        unsound = unsound | (own & ~(g2 + v2 + x2 < __builtin_inff()));
-        most_gone = larger(select(own, g2, Vec{}), most_gone);
-        most_speed = larger(select(own, v2, Vec{}), most_speed);
-        most_place = larger(select(own, x2, Vec{}), most_place);
-      }
       Mask out = is_out(gone, roam), bounds{};
       Vec w{};
       __builtin_memcpy(&bounds, look.bounds + particle, count * sizeof(float));
@@ -55,9 +46,28 @@ std::size_t look_at_motion(LeashLook& look) {
             static_cast<std::uint32_t>(particle + static_cast<Index>(__builtin_ctz(lanes)));
     }
   look.stale = any(stale) ? 1 : 0;
+  return left_over;
+}
+
+void measure_motion(MotionLook& look) {
+  Mask unsound{};
+  Vec most_gone{}, most_speed{}, most_place{};
+  for (Index j = look.first; j < look.last; ++j)
+    for (Index i = 0; i < look.nx; i += kLanes) {
+      const Index count = look.nx - i < kLanes ? look.nx - i : kLanes;
+      const Mask own = lanes_from(0) < static_cast<int>(count);
+      const float* const at = look.rows[j] + kColumns + i;
+      const Vec3 x = load3(at, look.stride), v = load3(at + 3 * look.stride, look.stride),
+                 gone = x - load_vec4(look.built + 4 * (j * look.nx + i), count);
+      const Vec gone2 = select(own, dot(gone, gone), Vec{}), speed2 = select(own, dot(v, v), Vec{}),
+                place2 = select(own, dot(x, x), Vec{});
+      unsound = unsound | ~(gone2 + speed2 + place2 < __builtin_inff());
+      most_gone = larger(gone2, most_gone);
+      most_speed = larger(speed2, most_speed);
+      most_place = larger(place2, most_place);
+    }
   look.unsound = any(unsound) ? 1 : 0;
   look.gone2 = largest(most_gone);
   look.speed2 = largest(most_speed);
   look.place2 = largest(most_place);
-  return left_over;
 }

@@ -11,8 +11,9 @@ namespace weft::native {
 bool sweep_watches_motion(const Plan& plan, const Model& model);
 
 /// A look at everyone says how far from where the lists were made anybody is, and how fast. While nobody goes
-/// farther in a substep than a quarter more than that speed takes it, which the sweep tells, the ways of the
-/// substeps since add up to less than what is left of the room, and nobody has to look again.
+/// farther in a substep than that speed and some more takes it, which the sweep tells, the ways of the
+/// substeps since add up to less than what is left of the room, and nobody has to look again. How much more
+/// follows from how the greatest speed has changed between looks.
 class MotionWatch final : public LeapWatch {
  public:
   /// @param room_m  how far anybody may go from where the lists were made
@@ -33,10 +34,14 @@ class MotionWatch final : public LeapWatch {
   void forget();
 
  private:
+  double more_at(double speed_m_s) const;
+
   double room_most_m_, room_m_ = -1.0, used_m_ = 0.0;
   double way_m_ = 0.0;       ///< that anybody goes in a substep, with what rounding adds
   float drift_s_ = 0.0f;     ///< of the latest sweep
   bool one_by_one_ = false;  ///< somebody leaps before long
+  double speed_m_s_ = -1.0;  ///< of the fastest when measured last; less than 0: nobody knows
+  std::uint32_t swept_ = 0;  ///< substeps since
 };
 
 }  // namespace weft::native

@@ -101,9 +101,40 @@ bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float
   const auto& state = buffers.words_of(BufferId::collision_state);
   if (watch_ && state[shared::kPairsListed] != 0) watch_->forget();
   const bool looks = state[shared::kListsArmed] != 0 && !(watch_ && watch_->all_are_in());
-  if (looks) moved = look_at_motion(buffers, crew, threads, stale);
+  if (looks && !measure_motion(buffers, crew, threads, stale))
+    moved = look_at_motion(buffers, crew, threads, stale);
   end_check(view_, stale, buffers);
   return moved;
+}
+
+/// Where nothing is listed, for whoever watches: adds to `stale`. Returns whether that was all there is to
+/// look at; otherwise somebody may have to be held back or has no place.
+bool SelfCollision::measure_motion(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads,
+                                   bool& stale) {
+  if (!watch_ || buffers.words_of(BufferId::collision_state)[shared::kPairsListed] != 0) return false;
+  std::vector<MotionLook> looks(threads, {.stride = cloth_.sheet().stride,
+                                          .nx = cloth_.nx(),
+                                          .rows = rows_.data(),
+                                          .built = &buffers[BufferId::built_position][0].x});
+  crew.run(threads, [&](std::uint32_t own) {
+    looks[own].first = own * cloth_.rows() / threads;
+    looks[own].last = (own + std::size_t{1}) * cloth_.rows() / threads;
+    kernels_.measure_motion(looks[own]);
+  });
+  MotionLook all = looks[0];
+  for (const MotionLook& look : looks) {
+    all.gone2 = std::max(all.gone2, look.gone2);
+    all.speed2 = std::max(all.speed2, look.speed2);
+    all.place2 = std::max(all.place2, look.place2);
+    all.unsound |= look.unsound;
+  }
+  if (all.unsound != 0 || all.gone2 > view_.roam_max * view_.roam_max) {
+    watch_->forget();
+    return false;
+  }
+  stale |= all.gone2 > view_.moved_squared_max;
+  watch_->measured(all.gone2, all.speed2, all.place2);
+  return true;
 }
 
 /// Adds to `stale` and returns whether anybody was held back.
@@ -112,7 +143,6 @@ bool SelfCollision::look_at_motion(HostBuffers<float>& buffers, Crew& crew, std:
   buffers[BufferId::near_position].resize(view_.grid.count());
   const Leash<float> leash(view_, buffers);
   const glm::vec3 &b = leash.with_lists(), &n = leash.with_contacts();
-  const bool measures = watch_ && buffers.words_of(BufferId::collision_state)[shared::kPairsListed] == 0;
   std::vector<LeashLook> looks(threads, {.stride = cloth_.sheet().stride,
                                          .nx = cloth_.nx(),
                                          .rows = rows_.data(),
@@ -126,8 +156,7 @@ bool SelfCollision::look_at_motion(HostBuffers<float>& buffers, Crew& crew, std:
                                          .moved_squared_max = view_.moved_squared_max,
                                          .roam_max = view_.roam_max,
                                          .surface_limit = view_.surface_limit,
-                                         .roam_share = shared::kRoamShare,
-                                         .measures = measures});
+                                         .roam_share = shared::kRoamShare});
   std::vector<std::size_t> counts(threads);
   crew.run(threads, [&](std::uint32_t own) {
     LeashLook& look = looks[own];
@@ -141,23 +170,7 @@ bool SelfCollision::look_at_motion(HostBuffers<float>& buffers, Crew& crew, std:
     stale |= looks[own].stale != 0;
     moved |= hold_back({looks[own].left_over, counts[own]}, buffers);
   }
-  if (measures) watch_anew(looks, moved);
   return moved;
-}
-
-/// From a look at everybody; where somebody was held back or has no place the next check looks again.
-void SelfCollision::watch_anew(std::span<const LeashLook> looks, bool moved) {
-  LeashLook all = looks[0];
-  for (const LeashLook& look : looks) {
-    all.gone2 = std::max(all.gone2, look.gone2);
-    all.speed2 = std::max(all.speed2, look.speed2);
-    all.place2 = std::max(all.place2, look.place2);
-    all.unsound |= look.unsound;
-  }
-  if (moved || all.unsound != 0)
-    watch_->forget();
-  else
-    watch_->measured(all.gone2, all.speed2, all.place2);
 }
 
 /// With the mirror's own code: few are out of their room.
@@ -175,10 +188,10 @@ bool SelfCollision::hold_back(std::span<const std::uint32_t> particles, HostBuff
   return !particles.empty();
 }
 
-void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+/// Boxes of patches and who bends in them; where everybody is as the lists are made. Returns how many cells
+/// are left over: whether they are creased is still to be seen.
+std::size_t SelfCollision::look_at_patches(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   const PatchGrid patches(view_.grid);
-  make_room_for_lists(view_.grid, buffers);
-  auto& boxes = buffers[BufferId::patches];
   const std::size_t floats = patch_look_floats(cloth_.nx());
   scratch_.resize(std::max(scratch_.size(), threads * floats));
   std::vector<PatchLook> looks(threads, {.stride = cloth_.sheet().stride,
@@ -187,29 +200,74 @@ void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::ui
                                          .rows = rows_.data(),
                                          .search_squared = view_.patch_search_squared,
                                          .flat_min = view_.flat_min,
-                                         .boxes = &boxes[0].x});
+                                         .boxes = &buffers[BufferId::patches][0].x});
+  creased_.resize(threads);
   crew.run(threads, [&](std::uint32_t own) {
+    kernels_.write_places({.stride = cloth_.sheet().stride,
+                           .nx = cloth_.nx(),
+                           .first = own * cloth_.rows() / threads,
+                           .last = (own + std::size_t{1}) * cloth_.rows() / threads,
+                           .rows = rows_.data(),
+                           .places = &buffers[BufferId::built_position][0].x});
     PatchLook& look = looks[own];
     look.first = std::size_t{own} * patches.rows() / threads;
     look.last = (own + std::size_t{1}) * patches.rows() / threads;
     look.scratch = scratch_.data() + own * floats;
     look.left_over = left_over_.data() + 4 * look.first * patches.nx();
-    const std::size_t particles = view_.grid.count();
-    begin_lists(buffers, own * particles / threads, (own + std::size_t{1}) * particles / threads);
-    if (look.first == look.last) return;
-    look_closely({look.left_over, kernels_.look_at_patches(look)}, buffers);
+    const std::size_t count = look.first < look.last ? kernels_.look_at_patches(look) : 0;
+    creased_[own] = {look.left_over, count};
   });
-  auto& state = buffers.words_of(BufferId::collision_state);
-  for (const PatchLook& look : looks)
-    state[shared::kLongestEdge] = std::max(state[shared::kLongestEdge], look.longest);
+  auto& longest = buffers.words_of(BufferId::collision_state)[shared::kLongestEdge];
+  std::size_t left_over = 0;
+  for (std::uint32_t own = 0; own < threads; ++own) {
+    longest = std::max(longest, looks[own].longest);
+    left_over += creased_[own].size();
+  }
+  return left_over;
+}
+
+void SelfCollision::box_blocks(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+  const PatchGrid patches(view_.grid);
   std::vector<std::uint32_t> widest(threads);
   crew.run(threads, [&](std::uint32_t own) {
     const std::uint64_t count = patches.block_count();
     widest[own] = write_blocks(view_, patches, buffers, static_cast<std::uint32_t>(own * count / threads),
                                static_cast<std::uint32_t>((own + 1) * count / threads));
   });
+  auto& state = buffers.words_of(BufferId::collision_state);
   state[shared::kWidestBlock] = std::max(state[shared::kWidestBlock], *std::ranges::max_element(widest));
-  count_blocks(view_, patches, buffers);
+}
+
+void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+  make_room_for_lists(view_.grid, buffers);
+  look_at_patches(buffers, crew, threads);
+  crew.run(threads, [&](std::uint32_t own) {
+    const std::size_t particles = view_.grid.count();
+    clear_lists(buffers, own * particles / threads, (own + std::size_t{1}) * particles / threads);
+    look_closely(creased_[own], buffers);
+  });
+  box_blocks(buffers, crew, threads);
+  count_blocks(view_, PatchGrid(view_.grid), buffers);
+}
+
+bool SelfCollision::make_empty_lists(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads,
+                                     const std::function<void()>& need_positions) {
+  auto& state = buffers.words_of(BufferId::collision_state);
+  const bool were_empty =
+      state[shared::kListsArmed] != 0 && state[shared::kPairsListed] == 0 && state[shared::kLookers] == 0;
+  if (!were_empty || view_.grid.cloths != 1 || !lists_stale(buffers)) return false;
+  make_room_for_lists(view_.grid, buffers);
+  if (look_at_patches(buffers, crew, threads) > 0) {
+    need_positions();
+    for (const auto& cells : creased_) look_closely(cells, buffers);
+  }
+  box_blocks(buffers, crew, threads);
+  look_near(buffers, crew, threads);
+  if (state[shared::kLookers] != 0) return false;
+  count_lists(buffers);
+  end_lists(buffers);
+  if (watch_) watch_->lists_made();
+  return true;
 }
 
 /// Of cells that no three planes part, 4·patch + k each: those that are creased, with the mirror's own code.

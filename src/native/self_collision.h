@@ -1,5 +1,6 @@
 // The passes of self-collision that have vector code: they read the cloth's rows and write its buffers.
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,11 @@ class SelfCollision {
   /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
   bool run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
            std::uint32_t threads);
+  /// At cell_count, where it leaves nothing to do for all passes that make lists: nobody looks for others, as
+  /// last time. Otherwise returns false, and what has changed is only what those passes make anew.
+  /// @param need_positions  called before positions in the buffers are read, which is seldom
+  bool make_empty_lists(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads,
+                        const std::function<void()>& need_positions);
   /// Whom sweeps have to tell; null: nobody.
   LeapWatch* watch() { return watch_ ? &*watch_ : nullptr; }
   /// Particles have been moved otherwise.
@@ -38,9 +44,11 @@ class SelfCollision {
   void carry_along(const Model& model, HostBuffers<float>& buffers) const;
   bool check_motion(const MirrorContext& context, HostBuffers<float>& buffers, Crew& crew,
                     std::uint32_t threads);
+  bool measure_motion(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads, bool& stale);
   bool look_at_motion(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads, bool& stale);
-  void watch_anew(std::span<const LeashLook> looks, bool moved);
   bool hold_back(std::span<const std::uint32_t> particles, HostBuffers<float>& buffers);
+  std::size_t look_at_patches(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  void box_blocks(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   std::uint32_t looks_beside(std::size_t x, std::size_t y) const;
@@ -56,8 +64,9 @@ class SelfCollision {
   std::vector<const float*> rows_;  ///< by row of all cloths
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> left_over_;
-  std::vector<NearNode> nodes_;      ///< of all levels of the tree
-  std::vector<NearLevel> levels_;    ///< the leaves first
+  std::vector<std::span<const std::uint32_t>> creased_;  ///< cells that look_at_patches left over
+  std::vector<NearNode> nodes_;                          ///< of all levels of the tree
+  std::vector<NearLevel> levels_;                        ///< the leaves first
   std::vector<std::uint8_t> bends_;  ///< by patch, one more on every side: as cell_count has said
 };
 

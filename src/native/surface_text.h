@@ -66,3 +66,10 @@ void surface(const Surface& s) {
     }
   }
 }
+
+void write_places(const PlaceRows& to) {
+  for (Index j = to.first; j < to.last; ++j)
+    for (Index i = 0; i < to.nx; i += kLanes)
+      write_vec4(to.places + 4 * (j * to.nx + i), to.nx - i < kLanes ? to.nx - i : kLanes,
+                 load3(to.rows[j] + kColumns + i, to.stride), nullptr);
+}

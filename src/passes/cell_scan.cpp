@@ -1,7 +1,7 @@
 // cell_scan: counts become the ends of the buckets. Declaration and CPU mirror.
 #include <numeric>
 
-#include "passes/collision.h"
+#include "passes/lists.h"
 #include "passes/passes.h"
 
 namespace weft {
@@ -13,11 +13,7 @@ void mirror(const MirrorContext&, HostBuffers<T>& buffers) {
   auto& cells = buffers.words_of(BufferId::cells);
   std::partial_sum(cells.begin(), cells.end() - 1, cells.begin());
   cells.back() = cells[cells.size() - 2];
-  auto& state = buffers.words_of(BufferId::collision_state);
-  ++state[shared::kListsBuilt];
-  state[shared::kListsArmed] = 1;
-  state[shared::kLookers] = 0;
-  state[shared::kPairsListed] = state[shared::kContactGroups] = 0;
+  count_lists(buffers);
 }
 
 /// One workgroup.

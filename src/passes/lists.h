@@ -18,16 +18,37 @@ void make_room_for_lists(const Grid& grid, HostBuffers<T>& buffers) {
     buffers.words_of(id).resize(grid.count());
 }
 
-/// Of particles [first, last): where they are as the lists are made, and lists without entries.
+/// Lists without entries of particles [first, last).
+inline void clear_lists(HostWords& buffers, std::size_t first, std::size_t last) {
+  for (const BufferId id : {BufferId::pair_count, BufferId::surface_count})
+    std::fill(&buffers.words_of(id)[first], &buffers.words_of(id)[first] + (last - first), 0u);
+  std::uint32_t* const bounds = &buffers.words_of(BufferId::surface_bound)[first];
+  std::fill(bounds, bounds + (last - first), shared::kInfinity);
+}
+
+/// Of these particles where they are as the lists are made, and lists without entries.
 template <class T>
 void begin_lists(HostBuffers<T>& buffers, std::size_t first, std::size_t last) {
   const auto& position = buffers[BufferId::position];
   auto& built = buffers[BufferId::built_position];
   for (std::size_t p = first; p < last; ++p) built[p] = glm::vec<4, T>(glm::vec<3, T>(position[p]), T(0));
-  for (const BufferId id : {BufferId::pair_count, BufferId::surface_count})
-    std::fill(&buffers.words_of(id)[first], &buffers.words_of(id)[first] + (last - first), 0u);
-  std::uint32_t* const bounds = &buffers.words_of(BufferId::surface_bound)[first];
-  std::fill(bounds, bounds + (last - first), shared::kInfinity);
+  clear_lists(buffers, first, last);
+}
+
+/// Counts lists that are being made, empty until somebody finds an entry.
+inline void count_lists(HostWords& buffers) {
+  auto& state = buffers.words_of(BufferId::collision_state);
+  ++state[shared::kListsBuilt];
+  state[shared::kListsArmed] = 1;
+  state[shared::kLookers] = 0;
+  state[shared::kPairsListed] = state[shared::kContactGroups] = 0;
+}
+
+/// The lists are made: no pass has anything left to do for them.
+inline void end_lists(HostWords& buffers) {
+  for (const std::uint32_t word :
+       {shared::kListGroups, shared::kBlockGroups, shared::kNearGroups, shared::kScanGroups})
+    buffers.words_of(BufferId::collision_state)[word] = 0;
 }
 
 /// Writes the boxes of blocks [first, last) from those of their patches.

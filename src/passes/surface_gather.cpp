@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "passes/folds.h"
+#include "passes/lists.h"
 #include "passes/parallel.h"
 #include "passes/passes.h"
 
@@ -191,11 +192,8 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     dropped += found - counts[p];
     listed |= counts[p];
   });
-  auto& state = buffers.words_of(BufferId::collision_state);
-  state[shared::kPairsDropped] += dropped;
-  for (const std::uint32_t word :
-       {shared::kListGroups, shared::kBlockGroups, shared::kNearGroups, shared::kScanGroups})
-    state[word] = 0;
+  buffers.words_of(BufferId::collision_state)[shared::kPairsDropped] += dropped;
+  end_lists(buffers);
   if (listed != 0) mark_listed(grid, buffers);
 }
 

@@ -147,8 +147,10 @@ class NativeSimulation final : public CpuSimulation<float> {
     const Clock::time_point began = Clock::now();
     if (has_work(step)) {
       need_rows();
-      if (native::SelfCollision::reads_buffers(*step.pass)) need_buffers();
-      if (engine_.look(*step.pass, context_of(step, substep), buffers_)) buffers_current_ = false;
+      const bool empty =
+          step.pass == &cell_count && engine_.make_empty_lists(buffers_, [this] { need_buffers(); });
+      if (!empty && native::SelfCollision::reads_buffers(*step.pass)) need_buffers();
+      if (!empty && engine_.look(*step.pass, context_of(step, substep), buffers_)) buffers_current_ = false;
     }
     this->count(step, 1, ms_since(began));
   }

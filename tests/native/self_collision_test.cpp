@@ -261,12 +261,14 @@ TEST(NativeSelfCollision, LooksNearAsTheMirror) {
 }
 
 /// Lists as if they had been made and contacts looked at: particles have moved since by up to 1.5 of their
-/// room, some have a surface near, and one is no number.
+/// room, where something is listed some have a surface near, and one is no number.
 void pretend_lists(const Model& model, std::uint64_t seed, HostBuffers<float>& buffers) {
   std::mt19937_64 random(seed);
   const CollisionView<float> view(model);
   std::uniform_real_distribution<float> share(-0.9f, 0.9f), bound(0.0f, 2.0f * view.surface_limit);
+  const bool listed = random() % 2 == 0;
   buffers.words_of(BufferId::collision_state)[shared::kListsArmed] = 1;
+  buffers.words_of(BufferId::collision_state)[shared::kPairsListed] = listed ? 1 : 0;
   const auto elsewhere = [&](const glm::vec4& x) {
     const float most = 0.7f * view.roam_max * std::abs(share(random));
     return x + most * glm::vec4(share(random), share(random), share(random), 0.0f);
@@ -281,7 +283,7 @@ void pretend_lists(const Model& model, std::uint64_t seed, HostBuffers<float>& b
   auto& bounds = buffers.words_of(BufferId::surface_bound);
   bounds.resize(position.size());
   for (std::uint32_t& bits : bounds)
-    bits = share(random) < 0.6f ? shared::kInfinity : std::bit_cast<std::uint32_t>(bound(random));
+    bits = !listed || share(random) < 0.6f ? shared::kInfinity : std::bit_cast<std::uint32_t>(bound(random));
   if (seed % 5 == 0) position[position.size() / 2].y = std::nanf("");
 }
 
