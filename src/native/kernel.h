@@ -208,22 +208,32 @@ struct LinkLook {
       place2;  ///< results: squares of the largest [m², m²/s²]; from the origin
 };
 
+/// Where cells are so even that they are neither folded nor to be looked at for creases: docs/float-form.md
+/// "Folds".
+struct Smooth {
+  float bend2;    ///< least square of what makes two edges that follow each other differ too much [m²]
+  float length2;  ///< of an edge, at least [m²]
+  float shear;    ///< of the product of two, at most [m²]
+  float apart2;   ///< of a corner's way past the others, at least [m²]
+};
+
 /// Rows [first, last) of patches of a cloth of nx × ny: boxes and bends, as docs/float-form.md "Patches" and
 /// "Folds".
 struct PatchLook {
   std::size_t stride, nx, ny, first, last;
   const float* const* rows;        ///< by row of the cloth
   float search_squared, flat_min;  ///< [m², m]
-  float* scratch;                  ///< patch_look_floats(nx) of them
-  float* boxes;                    ///< two vec4 a patch; all but what left_over says of creases
-  std::uint32_t* left_over;        ///< room for the cells of these rows: 4·patch + k
-  std::uint32_t longest;           ///< result: bits of the longest edge squared
+  Smooth smooth;
+  float* scratch;            ///< patch_look_floats(nx) of them
+  float* boxes;              ///< two vec4 a patch; all but what left_over says of creases
+  std::uint32_t* left_over;  ///< room for the cells of these rows: 4·patch + k
+  std::uint32_t longest;     ///< result: bits of the longest edge squared
 };
 /// Floats that PatchLook::scratch has room for.
 constexpr std::size_t patch_look_floats(std::size_t nx) {
   const std::size_t columns = (nx + kColumns - 1) / kColumns * kColumns + 2 * kColumns;
   const std::size_t patches = (nx / 2 + kColumns) / kColumns * kColumns + 2 * kColumns;
-  return 6 * 3 * columns + 2 * columns + (4 * 2 * 3 + 7) * patches;
+  return (6 * 3 + 2 + 6 * 3) * columns + (4 * 2 * 3 + 7) * patches;
 }
 
 /// Rows [first, last) of a cloth of nx columns: who has moved so far that lists are stale, or out of its

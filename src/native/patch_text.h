@@ -36,6 +36,8 @@ WEFT_INLINE void look_at_edges(const PatchScratch& s, Index j, Index nx, Index n
   }
 }
 
+#include "native/smooth_text.h"
+
 /// Bits 1 for folded cells of row j, and 2 for those whose creases are to be looked at more closely.
 WEFT_INLINE void look_at_cells(const PatchScratch& s, const PatchLook& look, Index j, int* bends) {
   if (j + 1 >= look.ny) {
@@ -48,6 +50,10 @@ WEFT_INLINE void look_at_cells(const PatchScratch& s, const PatchLook& look, Ind
       {s.row(j > 0 ? j - 1 : 0), s.row(j), s.row(j + 1), s.row(below)}, s.columns, j > 0, j + 2 < look.ny};
   for (Index i = 0; i < look.nx; i += kLanes) {
     const CellMasks masks = cell_masks(i, look.nx);
+    if (!any(masks.own & ~is_smooth(s, look, j, i))) {
+      store_ints(bends + i, Mask{});
+      continue;
+    }
     store_ints(bends + i,
                (folded(cells, i, masks, flat_min) & 1) | (not_apart(cells, i, masks, flat_min) & 2));
   }
@@ -110,7 +116,10 @@ std::size_t look_at_patches(PatchLook& look) {
   Bits longest{};
   Index left_over = 0, taken = look.first > 0 ? 2 * look.first - 2 : 0;
   const auto take_to = [&](Index end) {
-    for (; taken < end; ++taken) take_row(s, look, taken);
+    for (; taken < end; ++taken) {
+      take_row(s, look, taken);
+      if (taken < look.ny) look_how_even(s, look, taken);
+    }
   };
   if (look.first > 0) {
     take_to(2 * look.first + 2);

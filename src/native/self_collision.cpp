@@ -20,6 +20,14 @@ namespace {
 constexpr std::array kLooking{&carry,          &pair_check,    &cell_count,     &patch_near,
                               &surface_gather, &surface_touch, &surface_contact};
 
+/// The cells of the cloth are `a` wide, and nothing within flat_min = 0.55055·a of each other is overlooked.
+Smooth smooth_for(const CollisionView<float>& view) {
+  constexpr double kBend = 0.016, kLength = 0.95, kShear = 0.2, kApart = 0.62;
+  const double a = view.grid.spacing_m;
+  const auto squared = [](double x) { return static_cast<float>(x * x); };
+  return {squared(kBend * a), squared(kLength * a), static_cast<float>(kShear * a * a), squared(kApart * a)};
+}
+
 }  // namespace
 
 SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model, bool watches)
@@ -200,6 +208,7 @@ std::size_t SelfCollision::look_at_patches(HostBuffers<float>& buffers, Crew& cr
                                          .rows = rows_.data(),
                                          .search_squared = view_.patch_search_squared,
                                          .flat_min = view_.flat_min,
+                                         .smooth = smooth_for(view_),
                                          .boxes = &buffers[BufferId::patches][0].x});
   creased_.resize(threads);
   crew.run(threads, [&](std::uint32_t own) {

@@ -10,15 +10,18 @@ struct PatchScratch {
         patches((nx / 2 + kColumns) / kColumns * kColumns + 2 * kColumns),
         rows_(scratch),
         bends_(reinterpret_cast<int*>(scratch + 18 * columns)),
-        split_(scratch + 20 * columns),
+        uneven_(bends_ + 2 * columns),
+        split_(scratch + 38 * columns),
         near_(split_ + 24 * patches) {
-    __builtin_memset(bends_, 0, 2 * columns * sizeof(int));
+    __builtin_memset(bends_, 0, 20 * columns * sizeof(int));
     fill(near_, near_ + 7 * patches, __builtin_inff());
   }
 
   Index columns, patches;  ///< how far the coordinates of a row are apart, and of a split one
   float* row(Index j) const { return rows_ + j % 6 * 3 * columns + kColumns; }
   int* bends(int row) const { return bends_ + row * columns; }  ///< of the cells of a patch's two rows
+  /// Of row j, -1 where what an uneven_row says is too much.
+  int* uneven(Index j, int which) const { return uneven_ + (j % 6 * 3 + which) * columns + kColumns; }
   /// Even columns; the odd ones.
   float* split(Index j, int odd) const { return split_ + (j % 4 * 2 + odd) * 3 * patches + kColumns; }
   /// By patch, the square of the distance to the nearest particle of the patch to the right; and of row y, of
@@ -28,7 +31,7 @@ struct PatchScratch {
 
  private:
   float* rows_;
-  int* bends_;
+  int *bends_, *uneven_;
   float *split_, *near_;
 };
 

@@ -63,6 +63,20 @@ Shape rolled(double turn, double noise_cells) {
           }};
 }
 
+/// Flat and even, with edges so many cells long and so much of a row's pushed along it from one to the next:
+/// at the bounds of what is smooth (docs/float-form.md "Folds"), which `noise_cells` oversteps here and
+/// there.
+Shape drawn(double along, double down, double shear, double noise_cells) {
+  return {fmt::format("drawn by {} and {}, shear {}, noise {}", along, down, shear, noise_cells),
+          [=](const Model& model, std::mt19937_64& random, std::vector<glm::dvec3>& x) {
+            const double a = model.grid.spacing_m;
+            for (std::uint32_t j = 0; j < model.grid.ny; ++j)
+              for (std::uint32_t i = 0; i < model.grid.nx; ++i)
+                x[model.grid.index(i, j)] = {a * (along * i + shear * j), 0.0, a * down * j};
+            add_noise(noise_cells * a, random, x);
+          }};
+}
+
 /// Creased along the cells' diagonals, alternately up and down, as sharp as a line of cells allows.
 Shape creased(double depth_cells, double noise_cells) {
   return {fmt::format("creased by {}, noise {}", depth_cells, noise_cells),
@@ -96,8 +110,21 @@ Shape unsound() {
 }
 
 std::vector<Shape> shapes() {
-  return {rolled(0.0, 0.0),  rolled(0.0, 0.05),  rolled(0.2, 0.02), rolled(0.6, 0.08), rolled(2.2, 0.25),
-          creased(0.6, 0.0), creased(1.2, 0.05), scattered(),       unsound()};
+  return {rolled(0.0, 0.0),
+          rolled(0.0, 0.05),
+          rolled(0.2, 0.02),
+          rolled(0.6, 0.08),
+          rolled(2.2, 0.25),
+          creased(0.6, 0.0),
+          creased(1.2, 0.05),
+          scattered(),
+          unsound(),
+          drawn(0.955, 0.955, 0.2, 0.002),
+          drawn(0.955, 0.955, -0.2, 0.002),
+          drawn(0.96, 1.15, 0.1, 0.003),
+          drawn(3.0, 0.96, 0.05, 0.003),
+          drawn(0.8, 0.8, 0.0, 0.002),
+          rolled(0.015, 0.001)};
 }
 
 /// The buffers as they are before the lists are made: what moves nobody has run.
