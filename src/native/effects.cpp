@@ -7,6 +7,7 @@
 
 #include "native/body_touch.h"
 #include "passes/passes.h"
+#include "passes/reach.h"
 #include "passes/strain_limit.h"
 #include "shared/links.h"
 
@@ -22,6 +23,7 @@ Effects::Effects(Cloth& cloth, const Kernels& kernels, const Model& model, bool 
       kernels_(kernels),
       rows_(cloth.padded_rows()),
       solid_count_(solid_count(model)),
+      knows_near_(asks_bodies(model)),
       ground_(model),
       held_(model.moved_particles) {
   for (const MovedParticle& held : held_)
@@ -105,7 +107,8 @@ void Effects::touch_solids(const Kick& kick, Crew& crew, std::uint32_t threads) 
                  .floor_height = ground_.level.height,
                  .floor_friction = ground_.level.friction,
                  .tilt_normal = {ground_.tilt.normal.x, ground_.tilt.normal.y, ground_.tilt.normal.z},
-                 .tilt_level = ground_.tilt.level};
+                 .tilt_level = ground_.tilt.level,
+                 .near = knows_near_ && kick.drift > 0.0f ? &kick.near : nullptr};
   share_out(crew, threads, [&](const ClothRows& part) {
     const std::size_t row = part.cloth * cloth_.ny();
     SolidTouch touch = all;

@@ -40,6 +40,7 @@ class Effects {
   std::vector<float*> rows_;  ///< as Cloth::padded_rows
   Floats before_;             ///< positions where the drift began, where contact with solids asks for them
   std::uint32_t solid_count_;
+  bool knows_near_;  ///< whether rows of the schedule say which drifts may touch solids
   Ground<float> ground_;
   std::vector<std::uint32_t> left_over_;
   Floats kicked_;  ///< velocities after the air's kick, where the scene has [aerodynamics]

@@ -188,6 +188,7 @@ struct SolidTouch {
   const Solid* solids;
   std::uint32_t solid_count, has_level, has_tilt;
   float floor_height, floor_friction, tilt_normal[3], tilt_level;
+  const Near* near;          ///< which drifts may touch solids; null: any may
   std::uint32_t* left_over;  ///< room for the particles of these rows
 };
 

@@ -89,7 +89,10 @@ Index touch_solids(const SolidTouch& t) {
       const Block& block = t.sheet.blocks[t.sheet.block_of[j * t.sheet.block_count + i / kColumns]];
       const Mask movable = load(block.inverse_mass + i % kColumns) != Vec{};
       const Vec3 x0 = load3(t.before + j * 3 * stride + kColumns + i, stride);
-      const Touched free{load3(at, stride), load3(at + 3 * stride, stride)};
+      const Vec3 x1 = load3(at, stride);
+      const bool on_level = t.has_level && any(x1.y < splat(t.floor_height));
+      if (t.near && !t.has_tilt && !on_level && !any(near_bodies(*t.near, x0, x1))) continue;
+      const Touched free{x1, load3(at + 3 * stride, stride)};
       Touched now = free;
       Mask left{};
       for (std::uint32_t s = 0; s < t.solid_count; ++s) touch_solid(t.solids[s], x0, movable, now, left);
