@@ -161,6 +161,17 @@ struct XpbdPull {
 /// What an XpbdPull pulls, in the order of the solver's items; then the triples along i and along j.
 enum XpbdKind { kPullI, kPullJ, kPullDown, kPullUp, kPullTwoI, kPullTwoJ, kBendI, kBendJ, kXpbdKinds };
 
+/// Tethers of rows [first, last): who is farther from its anchor than it may be is pulled back.
+struct XpbdTethers {
+  XpbdSheet sheet;
+  std::size_t first, last;
+  const float* reach;            ///< stride a row [m]; below 0 where there is none
+  const float* places;           ///< of each anchor where the substep began [m] and how far it has moved: 6
+  const std::uint32_t* anchors;  ///< of each kColumns of a row, which of these all of them hang from
+  std::size_t blocks;            ///< of a row
+  std::uint32_t no_anchor;       ///< of those that hang from several: they are left out
+};
+
 /// Vertex normals of rows [first, last) of a cloth of nx × ny, and what is drawn.
 struct Surface {
   std::size_t stride, nx, ny, first, last;
@@ -337,6 +348,7 @@ struct Kernels {
   std::size_t (*look_at_edges)(const SurfaceLook&);
   void (*xpbd_predict)(const XpbdMove&);
   void (*xpbd_finish)(const XpbdMove&);
+  void (*xpbd_tethers)(const XpbdTethers&);
   void (*xpbd_pull[2][kXpbdKinds])(const XpbdPull&);  ///< without damping, and with
   /// `repeats` square roots and divisions of a vector each, as many at a time as hide their latency; returns
   /// their sum so that nobody leaves them out. What the sweep needs of the divider at least.

@@ -359,6 +359,7 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           look_at_surfaces<true>,
           xpbd_predict,
           xpbd_finish,
+          xpbd_tethers,
           {{pull_along_i<false>, pull_along_j<false, 1>, pull_across<false, false>, pull_across<false, true>,
             pull_two_along_i<false>, pull_along_j<false, 2>, bend_along_i, bend_along_j},
            {pull_along_i<true>, pull_along_j<true, 1>, pull_across<true, false>, pull_across<true, true>,

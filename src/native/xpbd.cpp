@@ -13,6 +13,8 @@
 namespace weft::native {
 namespace {
 
+constexpr std::uint32_t kSeveralAnchors = ~0u;
+
 bool is_set(std::span<const Constant> constants, IntegrateConstant id) {
   return std::ranges::any_of(
       constants, [&](const Constant& c) { return c.name == kIntegrateConstantNames[id] && c.value != 0; });
@@ -37,6 +39,7 @@ Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan&
       moved_bytes_(cloth.rows() * 4 * cloth.sheet().stride * sizeof(float)),
       moved_(make_floats(moved_bytes_ / sizeof(float))),
       interior_(static_cast<float>(1.0 / model.interior_mass_kg)),
+      anchors_move_(!model.moved_pins.empty()),
       turns_(cloth.rows() / kRowsPerBandMin + 1) {
   const std::size_t stride = cloth.sheet().stride;
   move_.sheet = {stride, cloth.nx(), cloth.ny(), cloth.row(0), moved_.get()};
@@ -48,6 +51,7 @@ Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan&
     if (step.pass == &xpbd_pins) placed_ = model.moved_particles;
     if (step.pass == &xpbd_tethers) tethers_ = make_tethers<float>(model);
   }
+  if (!tethers_.empty()) make_tether_rows();
   move_.has_contact = cloth.outside().has_floor != 0 || cloth.outside().sphere_count > 0;
 }
 
@@ -116,32 +120,80 @@ void Xpbd::move_pins(const Band& band, const Kick& kick) {
   }
 }
 
-/// Of the band's rows; anchors are fixed, so that nobody moves one meanwhile.
-void Xpbd::pull_tethers(const Band& band) {
-  const std::size_t stride = move_.sheet.stride, nx = move_.sheet.nx;
-  struct Place {
-    const float* start;
-    float* moved;
-  };
-  const auto place = [&](std::size_t p) {
-    return Place{cloth_.row(p / nx) + kColumns + p % nx,
-                 move_.sheet.moved + p / nx * 4 * stride + kColumns + p % nx};
-  };
-  for (std::size_t p = band.first * nx; p < band.last * nx; ++p) {
-    const shared::TetherOf<float>& tether = tethers_[p];
-    const Place own = place(p), anchor = place(tether.anchor);
-    if (own.moved[3 * stride] == 0.0f || tether.reach_m < 0.0f) continue;
-    float d[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t at = axis * stride;
-      d[axis] = (own.start[at] - anchor.start[at]) + (own.moved[at] - anchor.moved[at]);
+/// Particles beside each other mostly hang from the same anchor, and then a vector of them does.
+void Xpbd::make_tether_rows() {
+  const std::size_t stride = move_.sheet.stride, nx = cloth_.nx(), blocks = (nx + kColumns - 1) / kColumns;
+  for (const shared::TetherOf<float>& tether : tethers_) anchor_particles_.push_back(tether.anchor);
+  std::ranges::sort(anchor_particles_);
+  anchor_particles_.erase(std::ranges::unique(anchor_particles_).begin(), anchor_particles_.end());
+  tether_reach_.assign(cloth_.rows() * stride, -1.0f);
+  for (std::size_t j = 0; j < cloth_.rows(); ++j)
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const auto anchor_of = [&](std::size_t i) { return place_among(tethers_[j * nx + i].anchor); };
+      std::uint32_t& all = anchors_.emplace_back(anchor_of(kColumns * b));
+      for (std::size_t i = kColumns * b; i < std::min(nx, kColumns * (b + 1)); ++i) {
+        tether_reach_[j * stride + i] = tethers_[j * nx + i].reach_m;
+        if (anchor_of(i) != all) all = kSeveralAnchors;
+      }
     }
-    const float q = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
-    if (!(q > tether.reach_m * tether.reach_m)) continue;
-    const float l = std::sqrt(q), share = (l - tether.reach_m) * (1.0f / l);
+  all_tethers_ = {.reach = tether_reach_.data(),
+                  .anchors = anchors_.data(),
+                  .blocks = blocks,
+                  .no_anchor = kSeveralAnchors};
+}
+
+std::uint32_t Xpbd::place_among(std::uint32_t anchor) const {
+  return static_cast<std::uint32_t>(std::ranges::lower_bound(anchor_particles_, anchor) -
+                                    anchor_particles_.begin());
+}
+
+/// As XpbdTethers has them.
+std::vector<float> Xpbd::anchor_places() {
+  const std::size_t stride = move_.sheet.stride, nx = cloth_.nx();
+  std::vector<float> places;
+  for (const std::uint32_t p : anchor_particles_) {
+    const float *const start = cloth_.row(p / nx) + kColumns + p % nx, *const moved = move_.sheet.moved +
+                                                                                      p / nx * 4 * stride +
+                                                                                      kColumns + p % nx;
+    for (std::size_t axis = 0; axis < 3; ++axis) places.push_back(start[axis * stride]);
     for (std::size_t axis = 0; axis < 3; ++axis)
-      own.moved[axis * stride] = own.moved[axis * stride] - share * d[axis];
+      places.push_back(anchors_move_ ? moved[axis * stride] : 0.0f);
   }
+  return places;
+}
+
+/// Of the band's rows, which are one cloth's.
+void Xpbd::pull_tethers(const Band& band, const std::vector<float>& places) {
+  XpbdTethers tethers = all_tethers_;
+  tethers.sheet = move_.sheet;
+  tethers.first = band.first;
+  tethers.last = band.last;
+  tethers.places = places.data();
+  kernels_.xpbd_tethers(tethers);
+  const std::size_t nx = cloth_.nx(), blocks = tethers.blocks;
+  for (std::size_t at = band.first * blocks; at < band.last * blocks; ++at) {
+    if (anchors_[at] != kSeveralAnchors) continue;
+    const std::size_t row = at / blocks * nx, first = at % blocks * kColumns;
+    for (std::size_t i = first; i < std::min(nx, first + kColumns); ++i)
+      pull_tether(row + i, &places[6 * std::size_t{place_among(tethers_[row + i].anchor)}]);
+  }
+}
+
+void Xpbd::pull_tether(std::size_t particle, const float* anchor) {
+  const std::size_t stride = move_.sheet.stride, nx = move_.sheet.nx;
+  const float* const start = cloth_.row(particle / nx) + kColumns + particle % nx;
+  float* const moved = move_.sheet.moved + particle / nx * 4 * stride + kColumns + particle % nx;
+  const float reach_m = tethers_[particle].reach_m;
+  if (moved[3 * stride] == 0.0f || reach_m < 0.0f) return;
+  float d[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t at = axis * stride;
+    d[axis] = (start[at] - anchor[axis]) + (moved[at] - anchor[3 + axis]);
+  }
+  const float q = (d[0] * d[0] + d[1] * d[1]) + d[2] * d[2];
+  if (!(q > reach_m * reach_m)) return;
+  const float l = std::sqrt(q), share = (l - reach_m) * (1.0f / l);
+  for (std::size_t axis = 0; axis < 3; ++axis) moved[axis * stride] = moved[axis * stride] - share * d[axis];
 }
 
 void Xpbd::pull(const Colour& colour, const Kick& kick, Band& band) {
@@ -172,14 +224,15 @@ void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
     }
     move_pins(band, kick);
     for (const Colour& colour : colours_) pull(colour, kick, band);
-    if (!tethers_.empty()) {
+    if (!tethers_.empty() && !anchors_move_) pull_tethers(band, still_places_);
+    if (!tethers_.empty() && anchors_move_) {
       // Anchors may be any band's: all of them wait for all, before these are read and before they move on.
       // Tethers stand beside one cloth alone, so that every band waits for both its neighbours.
       const auto end_turns = [&] {
         for (std::uint32_t other = 1; other < band.count; ++other) end_turn(band);
       };
       end_turns();
-      pull_tethers(band);
+      pull_tethers(band, anchor_places());
       end_turns();
     }
     for (const XpbdMove& part : band.parts) kernels_.xpbd_finish(part);
@@ -188,6 +241,7 @@ void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
 
 void Xpbd::sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks) {
   for (Turns& turns : turns_) turns.done.store(0, std::memory_order_relaxed);
+  if (!anchors_move_) still_places_ = anchor_places();
   crew.run(threads, [&](std::uint32_t own) { sweep_band(band_of(own, threads), kicks); });
 }
 

@@ -23,7 +23,9 @@ class Xpbd {
   void sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks);
   /// Who is fixed has changed.
   void take_masses();
-  std::uint64_t bytes() const { return moved_bytes_; }
+  std::uint64_t bytes() const {
+    return moved_bytes_ + tether_reach_.size() * sizeof(float) + anchors_.size() * sizeof(std::uint32_t);
+  }
 
  private:
   /// One colour.
@@ -48,7 +50,11 @@ class Xpbd {
   void pull(const Colour& colour, const Kick& kick, Band& band);
   void end_turn(Band& band);
   void move_pins(const Band& band, const Kick& kick);
-  void pull_tethers(const Band& band);
+  void make_tether_rows();
+  std::uint32_t place_among(std::uint32_t anchor) const;
+  std::vector<float> anchor_places();
+  void pull_tethers(const Band& band, const std::vector<float>& places);
+  void pull_tether(std::size_t particle, const float* anchor);
 
   Cloth& cloth_;
   const Kernels& kernels_;
@@ -56,9 +62,15 @@ class Xpbd {
   std::vector<Colour> colours_;
   std::vector<MovedParticle> placed_;             ///< where the plan has xpbd_pins
   std::vector<shared::TetherOf<float>> tethers_;  ///< where it has xpbd_tethers
+  XpbdTethers all_tethers_{};
+  std::vector<float> tether_reach_;  ///< as XpbdTethers has them
+  std::vector<std::uint32_t> anchors_;
+  std::vector<std::uint32_t> anchor_particles_;  ///< ascending
+  std::vector<float> still_places_;              ///< XpbdTethers' of anchors that no pin moves
   std::size_t moved_bytes_;
   Floats moved_;
   float interior_;  ///< inverse mass of an interior particle [1/kg]
+  bool anchors_move_;
   std::vector<Turns> turns_;
 };
 

@@ -322,6 +322,29 @@ void xpbd_predict(const XpbdMove& move) {
   }
 }
 
+void xpbd_tethers(const XpbdTethers& t) {
+  const XpbdSheet& sheet = t.sheet;
+  for (Index j = t.first; j < t.last; ++j)
+    for (Index b = 0; b < t.blocks; ++b) {
+      const Index anchor = t.anchors[j * t.blocks + b];
+      if (anchor == t.no_anchor) continue;
+      const auto same = [](const float* at) { return Vec3{splat(at[0]), splat(at[1]), splat(at[2])}; };
+      const Vec3 from = same(t.places + 6 * anchor), with = same(t.places + 6 * anchor + 3);
+      for (Index i = kColumns * b; i < kColumns * (b + 1); i += kLanes) {
+        float* const moved = moved_at(sheet, j, i);
+        const Vec reach = load(t.reach + j * sheet.stride + i);
+        const Vec3 m = load3(moved, sheet.stride),
+                   d = (load3(state_at(sheet, j, i), sheet.stride) - from) + (m - with);
+        const Vec q = dot(d, d);
+        const Mask pulled =
+            (q > reach * reach) & (reach >= Vec{}) & (load(moved + 3 * sheet.stride) != Vec{});
+        if (!any(pulled)) continue;
+        const Vec l = root(q), share = (l - reach) * (splat(1.0f) / l);
+        store3(moved, sheet.stride, select(pulled, m - share * d, m));
+      }
+    }
+}
+
 void xpbd_finish(const XpbdMove& move) {
   const XpbdSheet& sheet = move.sheet;
   const Kick& kick = *move.kick;
