@@ -268,6 +268,14 @@ struct NearLook {
   std::uint32_t* listed;  ///< by patch
 };
 
+/// Points in blocks of kColumns: all x, all y, all z [m]; those of them that are nearer to a point.
+struct NearPoints {
+  const float* points;
+  std::size_t count;  ///< of whole blocks
+  float at[3], squared;
+  std::uint32_t* found;  ///< result, room for all: their places, ascending
+};
+
 /// Two surfaces nearer than their limit: of the four particles the weights of their motion in the distance,
 /// and the way from the second side to the first.
 struct SurfaceTouch {
@@ -306,6 +314,7 @@ struct Kernels {
   void (*make_near_leaves)(const NearLook&);
   void (*make_near_levels)(const NearLook&);  ///< once all leaves are made
   void (*look_near)(const NearLook&);
+  std::size_t (*find_near)(const NearPoints&);           ///< returns how many
   std::size_t (*look_at_triangles)(const SurfaceLook&);  ///< returns how many touch
   std::size_t (*look_at_edges)(const SurfaceLook&);
   void (*xpbd_predict)(const XpbdMove&);

@@ -6,7 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "native/crew_rows.h"
 #include "passes/carry.h"
 #include "passes/folds.h"
 #include "passes/leash.h"
@@ -17,8 +16,8 @@
 namespace weft::native {
 namespace {
 
-constexpr std::array kLooking{&carry,          &pair_check,    &cell_count,     &patch_near,
-                              &surface_gather, &surface_touch, &surface_contact};
+constexpr std::array kLooking{&carry,       &pair_check,     &cell_count,    &patch_near,
+                              &pair_gather, &surface_gather, &surface_touch, &surface_contact};
 
 }  // namespace
 
@@ -27,6 +26,7 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
       kernels_(kernels),
       view_(model),
       contacts_(view_, kernels),
+      near_lists_(view_, kernels),
       shares_motion_(shares_motion(model)),
       left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
   for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
@@ -50,7 +50,7 @@ void SelfCollision::make_room_for_tree() {
 
 std::uint64_t SelfCollision::bytes() const {
   return scratch_.size() * sizeof(float) + left_over_.size() * sizeof(std::uint32_t) +
-         nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes();
+         nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes() + near_lists_.bytes();
 }
 
 /// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
@@ -61,7 +61,7 @@ bool SelfCollision::has(const Pass& pass, const Plan& plan) {
 }
 
 bool SelfCollision::reads_buffers(const Pass& pass) {
-  return &pass == &cell_count || &pass == &surface_gather;
+  return &pass == &cell_count || &pass == &pair_gather || &pass == &surface_gather;
 }
 
 bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers,
@@ -75,10 +75,9 @@ bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuff
   if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
   if (&pass == &surface_touch) contacts_.touch(buffers, crew, threads);
   if (&pass == &surface_contact) contacts_.respond(buffers, crew, threads);
-  if (&pass == &surface_gather) {  // its mirror's, which several threads run
-    CrewRows rows(crew, threads);
-    const RowThreadsInUse in_use(rows);
-    pass.mirror_f32(context, buffers);
+  if (&pass == &pair_gather) near_lists_.gather_pairs(buffers, crew, threads);
+  if (&pass == &surface_gather) {
+    near_lists_.gather_surfaces(buffers, crew, threads);
     contacts_.forget_lists();
   }
   return false;

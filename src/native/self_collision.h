@@ -7,6 +7,7 @@
 #include "native/cloth.h"
 #include "native/crew.h"
 #include "native/motion_watch.h"
+#include "native/near_lists.h"
 #include "native/surface_contacts.h"
 #include "passes/collision.h"
 #include "plan/plan.h"
@@ -51,6 +52,7 @@ class SelfCollision {
   const Kernels& kernels_;
   CollisionView<float> view_;
   SurfaceContacts contacts_;
+  NearLists near_lists_;
   bool shares_motion_;
   std::optional<MotionWatch> watch_;
   std::vector<const float*> rows_;  ///< by row of all cloths
