@@ -256,9 +256,11 @@ struct NearLevel {
 };
 inline constexpr std::size_t kNearLevels = 8;
 
-/// Rows [first, last) of leaves of nx × ny patches: which patches have others near.
+/// Rows [first, last) of leaves of cloths of nx × ny patches each: which patches have others near. Every
+/// cloth begins with leaves of its own.
 struct NearLook {
   std::size_t nx, ny, first, last;
+  std::size_t leaf_rows;                                ///< of a cloth
   const float* boxes;                                   ///< two vec4 a patch
   float inverse_cell, cells_most, far_cells, distance;  ///< cells that a search goes beyond a box; [m]
   int cells_across;                                     ///< as many of the grid along an axis are looked at

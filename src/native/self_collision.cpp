@@ -30,35 +30,34 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
       shares_motion_(shares_motion(model)),
       left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
   for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
-  if (model.grid.cloths == 1) make_room_for_tree();
+  make_room_for_tree();
   if (watches) watch_.emplace(std::min(view_.layout.stale_m, view_.layout.roam_max_m));
 }
 
 void SelfCollision::make_room_for_tree() {
   const PatchGrid patches(view_.grid);
-  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}));
-  std::size_t across = patches.nx(), down = patches.ny(), count = 0;
-  do {
+  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}) * view_.grid.cloths);
+  std::size_t across = (patches.nx() + 3) / 4, down = leaf_rows() * view_.grid.cloths, count = across * down;
+  levels_.push_back({.nodes = nullptr, .across = across, .down = down});
+  while (across * down > 1) {
     across = (across + 3) / 4, down = (down + 3) / 4;
     levels_.push_back({.nodes = nullptr, .across = across, .down = down});
     count += across * down;
-  } while (across * down > 1);
+  }
   nodes_.resize(count);
   NearNode* place = nodes_.data();
   for (NearLevel& level : levels_) level.nodes = std::exchange(place, place + level.across * level.down);
 }
+
+/// Rows of leaves of one cloth.
+std::size_t SelfCollision::leaf_rows() const { return (PatchGrid(view_.grid).ny() + std::size_t{3}) / 4; }
 
 std::uint64_t SelfCollision::bytes() const {
   return scratch_.size() * sizeof(float) + left_over_.size() * sizeof(std::uint32_t) +
          nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes() + near_lists_.bytes();
 }
 
-/// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
-/// cloth's.
-bool SelfCollision::has(const Pass& pass, const Plan& plan) {
-  if (plan.sheet_rows != 0 && (&pass == &cell_count || &pass == &patch_near)) return false;
-  return std::ranges::count(kLooking, &pass) > 0;
-}
+bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
 
 bool SelfCollision::reads_buffers(const Pass& pass) {
   return &pass == &cell_count || &pass == &pair_gather || &pass == &surface_gather;
@@ -177,26 +176,20 @@ bool SelfCollision::hold_back(std::span<const std::uint32_t> particles, HostBuff
 void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   const PatchGrid patches(view_.grid);
   make_room_for_lists(view_.grid, buffers);
-  auto& boxes = buffers[BufferId::patches];
   const std::size_t floats = patch_look_floats(cloth_.nx());
   scratch_.resize(std::max(scratch_.size(), threads * floats));
   std::vector<PatchLook> looks(threads, {.stride = cloth_.sheet().stride,
                                          .nx = cloth_.nx(),
                                          .ny = cloth_.ny(),
-                                         .rows = rows_.data(),
                                          .search_squared = view_.patch_search_squared,
-                                         .flat_min = view_.flat_min,
-                                         .boxes = &boxes[0].x});
+                                         .flat_min = view_.flat_min});
   crew.run(threads, [&](std::uint32_t own) {
     PatchLook& look = looks[own];
-    look.first = std::size_t{own} * patches.rows() / threads;
-    look.last = (own + std::size_t{1}) * patches.rows() / threads;
     look.scratch = scratch_.data() + own * floats;
-    look.left_over = left_over_.data() + 4 * look.first * patches.nx();
     const std::size_t particles = view_.grid.count();
     begin_lists(buffers, own * particles / threads, (own + std::size_t{1}) * particles / threads);
-    if (look.first == look.last) return;
-    look_closely({look.left_over, kernels_.look_at_patches(look)}, buffers);
+    look_at_rows(std::size_t{own} * patches.rows() / threads,
+                 (own + std::size_t{1}) * patches.rows() / threads, look, buffers);
   });
   auto& state = buffers.words_of(BufferId::collision_state);
   for (const PatchLook& look : looks)
@@ -211,28 +204,65 @@ void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::ui
   count_blocks(view_, patches, buffers);
 }
 
-/// Of cells that no three planes part, 4·patch + k each: those that are creased, with the mirror's own code.
-void SelfCollision::look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const {
+/// Rows of patches of all cloths, one cloth's after the other's: the kernel knows but one.
+void SelfCollision::look_at_rows(std::size_t first, std::size_t last, PatchLook& look,
+                                 HostBuffers<float>& buffers) {
+  const PatchGrid patches(view_.grid);
+  const std::size_t down = patches.ny();
+  std::uint32_t longest = 0;
+  for (std::size_t row = first; row < last;) {
+    const std::size_t cloth = row / down, end = std::min(last, (cloth + 1) * down);
+    const std::size_t patches_before = cloth * down * patches.nx();
+    look.rows = rows_.data() + cloth * cloth_.ny();
+    look.boxes = &buffers[BufferId::patches][2 * patches_before].x;
+    look.first = row - cloth * down, look.last = end - cloth * down;
+    look.left_over = left_over_.data() + 4 * row * patches.nx();
+    const std::size_t count = kernels_.look_at_patches(look);
+    longest = std::max(longest, look.longest);
+    look_closely({look.left_over, count}, static_cast<std::uint32_t>(patches_before), buffers);
+    row = end;
+  }
+  look.longest = longest;
+}
+
+/// Of cells that no three planes part, 4·patch + k each, counted in their cloth: those that are creased, with
+/// the mirror's own code.
+void SelfCollision::look_closely(std::span<const std::uint32_t> cells, std::uint32_t patches_before,
+                                 HostBuffers<float>& buffers) const {
   const PatchGrid patches(view_.grid);
   for (auto cell = cells.begin(); cell != cells.end();) {
-    const std::uint32_t patch = *cell / 4;
+    const std::uint32_t in_cloth = *cell / 4, patch = patches_before + in_cloth;
     const Folds<float> folds(view_, patches, buffers[BufferId::position], patch);
     bool creased = false;
-    for (; cell != cells.end() && *cell / 4 == patch; ++cell)
+    for (; cell != cells.end() && *cell / 4 == in_cloth; ++cell)
       creased = creased || folds.diagonal_in_reach(*cell % 4);
     if (creased) buffers[BufferId::patches][2 * std::size_t{patch} + 1].w += float{shared::kCreased};
   }
 }
 
+/// Calls act(y, patch, above) for the rows of patches of rows of leaves: which row of its cloth, its first
+/// patch, and where in bends_ the row above begins.
+template <class Act>
+void SelfCollision::in_each_row_of(std::size_t first, std::size_t last, const Act& act) const {
+  const PatchGrid patches(view_.grid);
+  const std::size_t down = patches.ny(), across = patches.nx() + std::size_t{2};
+  for (std::size_t leaves = first; leaves < last; ++leaves) {
+    const std::size_t cloth = leaves / leaf_rows(), begin = 4 * (leaves % leaf_rows());
+    for (std::size_t y = begin; y < std::min(begin + 4, down); ++y)
+      act(y, (cloth * down + y) * patches.nx(), (cloth * (down + 2) + y) * across);
+  }
+}
+
 void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   const PatchGrid patches(view_.grid);
-  const std::size_t nx = patches.nx(), ny = patches.ny(), leaf_rows = levels_[0].down;
+  const std::size_t nx = patches.nx(), leaves_down = levels_[0].down;
   const auto& boxes = buffers[BufferId::patches];
   auto& listed = buffers.words_of(BufferId::patch_listed);
   listed.resize(patches.count());
   const PatchSearch<float> search(view_, buffers);
   NearLook all{.nx = nx,
-               .ny = ny,
+               .ny = patches.ny(),
+               .leaf_rows = leaf_rows(),
                .boxes = &boxes[0].x,
                .inverse_cell = view_.inverse_cell,
                .cells_most = shared::kCellsFromOriginMax,
@@ -246,32 +276,34 @@ void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint
   std::ranges::copy(levels_, all.levels);
   const auto part_of = [&](std::uint32_t own) {
     NearLook part = all;
-    part.first = own * leaf_rows / threads;
-    part.last = (own + std::size_t{1}) * leaf_rows / threads;
+    part.first = own * leaves_down / threads;
+    part.last = (own + std::size_t{1}) * leaves_down / threads;
     return part;
   };
   crew.run(threads, [&](std::uint32_t own) {
     const NearLook part = part_of(own);
     kernels_.make_near_leaves(part);
-    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+    in_each_row_of(part.first, part.last, [&](std::size_t, std::size_t patch, std::size_t above) {
       for (std::size_t x = 0; x < nx; ++x)
-        bends_[(y + 1) * (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (y * nx + x) + 1].w);
+        bends_[above + (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (patch + x) + 1].w);
+    });
   });
   kernels_.make_near_levels(all);
   crew.run(threads, [&](std::uint32_t own) {
     const NearLook part = part_of(own);
-    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
-      for (std::size_t x = 0; x < nx; ++x) listed[y * nx + x] = looks_beside(x, y);
+    in_each_row_of(part.first, part.last, [&](std::size_t y, std::size_t patch, std::size_t above) {
+      for (std::size_t x = 0; x < nx; ++x) listed[patch + x] = looks_beside(x, y, &bends_[above + x]);
+    });
     kernels_.look_near(part);
   });
   tell_lookers(view_, patches, buffers);
 }
 
 /// The bits of the particles that are at a folded cell; of all of them where a diagonal nearby is creased.
-std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y) const {
+/// @param bends  of the patch above and to the left
+std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y, const std::uint8_t* bends) const {
   const std::size_t across = (view_.grid.nx + std::size_t{1}) / 2 + 2;
-  const std::uint8_t *const above = bends_.data() + y * across + x, *const own = above + across,
-                            *const below = own + across;
+  const std::uint8_t *const above = bends, *const own = above + across, *const below = own + across;
   const auto together = [](const std::uint8_t* row) { return std::uint32_t(row[0] | row[1] | row[2]); };
   const std::uint32_t round = together(above) | together(own) | together(below);
   if (round == 0) return 0;
