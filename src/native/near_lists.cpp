@@ -20,19 +20,24 @@ constexpr std::uint32_t kBoxless = 1;             // the box of the point's patc
 
 }  // namespace
 
-/// What all blocks of a pass share.
+/// What all blocks share.
 struct NearLists::Gathering {
   const std::vector<glm::vec4>& position;
   const std::vector<std::uint32_t>& listed;
   std::uint32_t looker_count;
-  Search search;
-  float distance, squared;  ///< how far to look [m]; what is nearer is in question [m²]
+  SurfaceSearch<float> surface_search;
+  const Search& search;
+  Reach pairs, surfaces;
 
-  Gathering(const CollisionView<float>& view, const HostBuffers<float>& buffers)
+  Gathering(const CollisionView<float>& view, const PatchGrid& patches, const HostBuffers<float>& buffers)
       : position(buffers[BufferId::position]),
         listed(buffers.words_of(BufferId::patch_listed)),
         looker_count(buffers.words_of(BufferId::collision_state)[shared::kLookers]),
-        search(view, buffers) {}
+        surface_search(view, patches, buffers),
+        search(surface_search.search()),
+        pairs{view.pair_reach,
+              std::ranges::max(view.limits, {}, &PairLimit<float>::reach_squared).reach_squared},
+        surfaces{search.surface_distance(), search.surface_squared()} {}
 };
 
 /// Those of a block that the grid covers.
@@ -52,8 +57,9 @@ void NearLists::find_lookers(const Gathering& gathering, std::uint32_t block, Sc
   });
 }
 
-/// The points that may be near those lookers. Returns false where they are too far apart to look together.
-bool NearLists::collect(const Gathering& gathering, std::span<const Looker> lookers, Scratch& scratch) const {
+/// The points that may be near those lookers. Returns whether so many cells along an axis are all.
+bool NearLists::collect(const Gathering& gathering, float distance, std::span<const Looker> lookers,
+                        int cells_across_max, Scratch& scratch) const {
   scratch.members.clear(), scratch.places.clear(), scratch.from.clear(), scratch.points.clear();
   glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
   for (const Looker& looker : lookers) {
@@ -64,28 +70,25 @@ bool NearLists::collect(const Gathering& gathering, std::span<const Looker> look
   }
   if (low.x > high.x) return true;  // none of them looks far
   const Search& search = gathering.search;
-  const bool together = lookers.size() > 1;
-  const Search::CellRange range = search.cells_around(
-      low, high, gathering.distance, together ? kCellsAcrossOfBlock : shared::kCellsAcrossMax);
-  if (together && !range.all) return false;
+  const Search::CellRange range = search.cells_around(low, high, distance, cells_across_max);
   search.each_member(range, [&](std::uint32_t block, const Search::Cell& cell) {
-    if (Search::gap(low, high, search.block_low(block), search.block_high(block)) < gathering.distance &&
+    if (Search::gap(low, high, search.block_low(block), search.block_high(block)) < distance &&
         search.cell_of(block) == cell) {
       scratch.members.push_back({block, cell});
-      add_block(gathering, block, low, high, scratch);
+      add_block(gathering, distance, block, low, high, scratch);
     }
     return false;
   });
   scratch.found.resize(std::max(scratch.found.size(), scratch.places.size()));
-  return true;
+  return range.all;
 }
 
 /// The particles of a block, but of patches that are too far from all lookers.
-void NearLists::add_block(const Gathering& gathering, std::uint32_t block, const glm::vec3& low,
-                          const glm::vec3& high, Scratch& scratch) const {
+void NearLists::add_block(const Gathering& gathering, float distance, std::uint32_t block,
+                          const glm::vec3& low, const glm::vec3& high, Scratch& scratch) const {
   patches_.each_of(patches_.patches_of(block), [&](std::uint32_t patch) {
     const glm::vec3 patch_low = gathering.search.low(patch), patch_high = gathering.search.high(patch);
-    if (!(Search::gap(low, high, patch_low, patch_high) < gathering.distance)) return;
+    if (!(Search::gap(low, high, patch_low, patch_high) < distance)) return;
     const bool boxed =
         patch_low.x <= patch_high.x && patch_low.y <= patch_high.y && patch_low.z <= patch_high.z;
     const std::uint32_t from =
@@ -110,20 +113,20 @@ void NearLists::add_point(const glm::vec4& x, std::uint32_t place, std::uint32_t
 }
 
 /// Calls visit(particle, place) for the collected points that p may list, in their order: as PatchSearch's
-/// particles_around, and nearer than `squared`. Boxes that hold all that are numbers of their particles need
-/// no look once a point is so near: that is less than `distance` by more than rounding takes.
+/// particles_around, and nearer than the reach's `squared`. Boxes that hold all that are numbers of their
+/// particles need no look once a point is so near: that is less than `distance` by more than rounding takes.
 /// @return whether the search saw all cells
 template <class Visit>
-bool NearLists::each_near(const Gathering& gathering, std::uint32_t p, Scratch& scratch,
+bool NearLists::each_near(const Gathering& gathering, const Reach& reach, std::uint32_t p, Scratch& scratch,
                           Visit&& visit) const {
   const Grid& grid = view_.grid;
   const Search& search = gathering.search;
   const glm::vec3 x(gathering.position[p]);
-  const Search::CellRange range = search.cells_around(x, x, gathering.distance);
+  const Search::CellRange range = search.cells_around(x, x, reach.distance);
   const std::size_t count = kernels_.find_near({.points = scratch.points.data(),
                                                 .count = scratch.points.size() / 3,
                                                 .at = {x.x, x.y, x.z},
-                                                .squared = gathering.squared,
+                                                .squared = reach.squared,
                                                 .found = scratch.found.data()});
   const std::uint32_t column = p % grid.nx, row = p / grid.nx, top = row - grid.own_row(row);
   const std::uint32_t first = std::max(row, top + 1) - 1, last = std::min(row + 1, top + grid.ny - 1);
@@ -135,45 +138,38 @@ bool NearLists::each_near(const Gathering& gathering, std::uint32_t p, Scratch& 
     const Member& member = scratch.members[from / 2];
     const std::uint32_t q = grid.index(i, j);
     if (!range.has(member.cell)) continue;
-    if ((from & kBoxless) == 0 || boxes_near(gathering, x, member.block, q)) visit(q, place);
+    if ((from & kBoxless) == 0 || boxes_near(search, reach.distance, x, member.block, q)) visit(q, place);
   }
   return range.all;
 }
 
 /// Whether the boxes of a particle's block and patch are near, for those that may not hold it.
-bool NearLists::boxes_near(const Gathering& gathering, const glm::vec3& x, std::uint32_t block,
+bool NearLists::boxes_near(const Search& search, float distance, const glm::vec3& x, std::uint32_t block,
                            std::uint32_t particle) const {
   const std::uint32_t patch = patches_.with(particle);
-  const Search& search = gathering.search;
-  return Search::gap(x, x, search.block_low(block), search.block_high(block)) < gathering.distance &&
-         Search::gap(x, x, search.low(patch), search.high(patch)) < gathering.distance;
+  return Search::gap(x, x, search.block_low(block), search.block_high(block)) < distance &&
+         Search::gap(x, x, search.low(patch), search.high(patch)) < distance;
 }
 
-/// Calls act(looker, scratch) for all of a block that look, with what may be near them collected.
-template <class Act>
-void NearLists::in_block(const Gathering& gathering, std::uint32_t block, Scratch& scratch,
-                         const Act& act) const {
+/// Makes the lists of all of a block that look. Whoever looks alone does so once for each list, in the cells
+/// that the mirror's search of it would look into.
+void NearLists::gather_in(const Gathering& gathering, std::uint32_t block, Scratch& scratch,
+                          HostBuffers<float>& buffers) const {
   find_lookers(gathering, block, scratch);
   if (scratch.lookers.empty()) return;
-  const bool together = collect(gathering, scratch.lookers, scratch);
+  const float both = std::max(gathering.pairs.distance, gathering.surfaces.distance);
+  const bool together = collect(gathering, both, scratch.lookers, kCellsAcrossOfBlock, scratch);
+  const auto look_alone = [&](const Looker& looker, float distance) {
+    if (!together) collect(gathering, distance, {&looker, 1}, shared::kCellsAcrossMax, scratch);
+  };
   for (const Looker& looker : scratch.lookers) {
-    if (!together) collect(gathering, {&looker, 1}, scratch);
-    act(looker, scratch);
+    if ((looker.looks & shared::kLooksFar) != 0) {
+      look_alone(looker, gathering.pairs.distance);
+      list_pairs(gathering, looker.particle, scratch, buffers);
+    }
+    look_alone(looker, gathering.surfaces.distance);
+    list_surfaces(gathering, looker, scratch, buffers);
   }
-}
-
-template <class Act>
-void NearLists::in_each_block(const Gathering& gathering, Crew& crew, std::uint32_t threads, const Act& act) {
-  threads = std::min(threads, gathering.looker_count / kLookersPerThread + 1);
-  if (scratch_.size() < threads) scratch_.resize(threads);
-  std::atomic<std::uint32_t> next = 0;
-  crew.run(threads, [&](std::uint32_t own) {
-    Scratch& scratch = scratch_[own];
-    const std::uint32_t count = patches_.block_count();
-    for (std::uint32_t first = 0; (first = next.fetch_add(kBlocksAtOnce, std::memory_order_relaxed)) < count;)
-      for (std::uint32_t block = first; block < std::min(first + kBlocksAtOnce, count); ++block)
-        in_block(gathering, block, scratch, act);
-  });
 }
 
 /// What the threads have counted.
@@ -186,57 +182,58 @@ void NearLists::finish(HostBuffers<float>& buffers) {
   if (listed != 0) mark_listed(view_.grid, buffers);
 }
 
-void NearLists::gather_pairs(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
-  if (!lists_in_making(buffers)) return;
-  const std::size_t count = view_.grid.count();
+void NearLists::list_pairs(const Gathering& gathering, std::uint32_t p, Scratch& scratch,
+                           HostBuffers<float>& buffers) const {
   auto& places = buffers.words_of(BufferId::pair_places);
-  auto& counts = buffers.words_of(BufferId::pair_count);
-  places.resize(count * view_.layout.capacity);
-  Gathering gathering(view_, std::as_const(buffers));
-  gathering.distance = view_.pair_reach;
-  gathering.squared = std::ranges::max(view_.limits, {}, &PairLimit<float>::reach_squared).reach_squared;
-  in_each_block(gathering, crew, threads, [&](const Looker& looker, Scratch& scratch) {
-    if ((looker.looks & shared::kLooksFar) == 0) return;
-    const std::uint32_t p = looker.particle;
-    std::uint32_t found = 0;
-    each_near(gathering, p, scratch, [&](std::uint32_t q, std::uint32_t place) {
-      const float squared = squared_distance(gathering.position[p], gathering.position[q]);
-      if (!(squared < view_.limit(p, q).reach_squared)) return;
-      if (found < view_.layout.capacity) places[std::size_t{found} * count + p] = place;
-      ++found;
-    });
-    counts[p] = std::min(found, view_.layout.capacity);
-    scratch.dropped += found - counts[p];
-    scratch.listed |= found;
+  std::uint32_t found = 0;
+  each_near(gathering, gathering.pairs, p, scratch, [&](std::uint32_t q, std::uint32_t place) {
+    const float squared = squared_distance(gathering.position[p], gathering.position[q]);
+    if (!(squared < view_.limit(p, q).reach_squared)) return;
+    if (found < view_.layout.capacity) places[std::size_t{found} * view_.grid.count() + p] = place;
+    ++found;
   });
-  finish(buffers);
+  const std::uint32_t kept = std::min(found, view_.layout.capacity);
+  buffers.words_of(BufferId::pair_count)[p] = kept;
+  scratch.dropped += found - kept;
+  scratch.listed |= found;
 }
 
-void NearLists::gather_surfaces(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
+void NearLists::list_surfaces(const Gathering& gathering, const Looker& looker, Scratch& scratch,
+                              HostBuffers<float>& buffers) const {
+  auto& entries = buffers.words_of(BufferId::surface_pairs);
+  const std::uint32_t p = looker.particle;
+  std::uint32_t found = 0;
+  const auto keep = [&](std::uint32_t code, std::uint32_t place) {
+    if (found < view_.layout.surface_capacity)
+      entries[std::size_t{found} * view_.grid.count() + p] = code << shared::kSurfaceCodeShift | place;
+    ++found;
+  };
+  const auto around = [&](const auto& look_at) {
+    return each_near(gathering, gathering.surfaces, p, scratch,
+                     [&](std::uint32_t q, std::uint32_t) { look_at(q); });
+  };
+  if (!gathering.surface_search.run(p, looker.looks, around, keep)) ++scratch.dropped;
+  const std::uint32_t kept = std::min(found, view_.layout.surface_capacity);
+  buffers.words_of(BufferId::surface_count)[p] = kept;
+  scratch.dropped += found - kept;
+  scratch.listed |= kept;
+}
+
+void NearLists::gather(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   if (!lists_in_making(buffers)) return;
   const std::size_t count = view_.grid.count();
-  auto& entries = buffers.words_of(BufferId::surface_pairs);
-  auto& counts = buffers.words_of(BufferId::surface_count);
-  entries.resize(count * view_.layout.surface_capacity);
-  const SurfaceSearch<float> search(view_, patches_, std::as_const(buffers));
-  Gathering gathering(view_, std::as_const(buffers));
-  gathering.distance = search.search().surface_distance();
-  gathering.squared = search.search().surface_squared();
-  in_each_block(gathering, crew, threads, [&](const Looker& looker, Scratch& scratch) {
-    const std::uint32_t p = looker.particle;
-    std::uint32_t found = 0;
-    const auto keep = [&](std::uint32_t code, std::uint32_t place) {
-      if (found < view_.layout.surface_capacity)
-        entries[found * count + p] = code << shared::kSurfaceCodeShift | place;
-      ++found;
-    };
-    const auto around = [&](const auto& look_at) {
-      return each_near(gathering, p, scratch, [&](std::uint32_t q, std::uint32_t) { look_at(q); });
-    };
-    if (!search.run(p, looker.looks, around, keep)) ++scratch.dropped;
-    counts[p] = std::min(found, view_.layout.surface_capacity);
-    scratch.dropped += found - counts[p];
-    scratch.listed |= counts[p];
+  buffers.words_of(BufferId::pair_places).resize(count * view_.layout.capacity);
+  buffers.words_of(BufferId::surface_pairs).resize(count * view_.layout.surface_capacity);
+  const Gathering gathering(view_, patches_, std::as_const(buffers));
+  threads = std::min(threads, gathering.looker_count / kLookersPerThread + 1);
+  if (scratch_.size() < threads) scratch_.resize(threads);
+  std::atomic<std::uint32_t> next = 0;
+  crew.run(threads, [&](std::uint32_t own) {
+    const std::uint32_t blocks = patches_.block_count();
+    for (std::uint32_t first = 0;
+         (first = next.fetch_add(kBlocksAtOnce, std::memory_order_relaxed)) < blocks;)
+      for (std::uint32_t block = first; block < std::min(first + kBlocksAtOnce, blocks); ++block)
+        gather_in(gathering, block, scratch_[own], buffers);
   });
   auto& state = buffers.words_of(BufferId::collision_state);
   for (const std::uint32_t word :

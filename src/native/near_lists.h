@@ -1,5 +1,5 @@
-// pair_gather and surface_gather on native: what may be near is looked up once for all particles of a block
-// that look for others, and each of them compares itself with all of it by vectors.
+// pair_gather and surface_gather on native, in one: what may be near is looked up once for all particles of a
+// block that look for others, and each of them compares itself with all of it by vectors.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@ class NearLists {
   NearLists(const CollisionView<float>& view, const Kernels& kernels)
       : view_(view), kernels_(kernels), patches_(view.grid) {}
 
-  void gather_pairs(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
-  void gather_surfaces(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
+  /// Both passes.
+  void gather(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   std::uint64_t bytes() const;
 
  private:
@@ -41,21 +41,28 @@ class NearLists {
     std::vector<std::uint32_t> found;
     std::uint32_t dropped = 0, listed = 0;
   };
+  struct Reach {
+    float distance, squared;  ///< how far to look [m]; what is nearer is in question [m²]
+  };
   struct Gathering;
 
-  template <class Act>
-  void in_each_block(const Gathering& gathering, Crew& crew, std::uint32_t threads, const Act& act);
-  template <class Act>
-  void in_block(const Gathering& gathering, std::uint32_t block, Scratch& scratch, const Act& act) const;
+  void gather_in(const Gathering& gathering, std::uint32_t block, Scratch& scratch,
+                 HostBuffers<float>& buffers) const;
   void find_lookers(const Gathering& gathering, std::uint32_t block, Scratch& scratch) const;
-  bool collect(const Gathering& gathering, std::span<const Looker> lookers, Scratch& scratch) const;
-  void add_block(const Gathering& gathering, std::uint32_t block, const glm::vec3& low, const glm::vec3& high,
-                 Scratch& scratch) const;
+  bool collect(const Gathering& gathering, float distance, std::span<const Looker> lookers,
+               int cells_across_max, Scratch& scratch) const;
+  void add_block(const Gathering& gathering, float distance, std::uint32_t block, const glm::vec3& low,
+                 const glm::vec3& high, Scratch& scratch) const;
   void add_point(const glm::vec4& x, std::uint32_t place, std::uint32_t from, Scratch& scratch) const;
   template <class Visit>
-  bool each_near(const Gathering& gathering, std::uint32_t p, Scratch& scratch, Visit&& visit) const;
-  bool boxes_near(const Gathering& gathering, const glm::vec3& x, std::uint32_t block,
+  bool each_near(const Gathering& gathering, const Reach& reach, std::uint32_t p, Scratch& scratch,
+                 Visit&& visit) const;
+  bool boxes_near(const Search& search, float distance, const glm::vec3& x, std::uint32_t block,
                   std::uint32_t particle) const;
+  void list_pairs(const Gathering& gathering, std::uint32_t p, Scratch& scratch,
+                  HostBuffers<float>& buffers) const;
+  void list_surfaces(const Gathering& gathering, const Looker& looker, Scratch& scratch,
+                     HostBuffers<float>& buffers) const;
   void finish(HostBuffers<float>& buffers);
 
   const CollisionView<float>& view_;

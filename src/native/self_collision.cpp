@@ -60,7 +60,7 @@ std::uint64_t SelfCollision::bytes() const {
 bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
 
 bool SelfCollision::reads_buffers(const Pass& pass) {
-  return &pass == &cell_count || &pass == &pair_gather || &pass == &surface_gather;
+  return &pass == &cell_count || &pass == &surface_gather;
 }
 
 bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuffers<float>& buffers,
@@ -74,9 +74,8 @@ bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuff
   if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
   if (&pass == &surface_touch) contacts_.touch(buffers, crew, threads);
   if (&pass == &surface_contact) contacts_.respond(buffers, crew, threads);
-  if (&pass == &pair_gather) near_lists_.gather_pairs(buffers, crew, threads);
-  if (&pass == &surface_gather) {
-    near_lists_.gather_surfaces(buffers, crew, threads);
+  if (&pass == &surface_gather) {  // and pair_gather, which stands before it
+    near_lists_.gather(buffers, crew, threads);
     contacts_.forget_lists();
   }
   return false;

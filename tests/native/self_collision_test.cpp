@@ -172,9 +172,9 @@ constexpr std::span<const Size> kSmallSizes(kSizes, std::size(kSizes) - 2);
 constexpr const char* kTwoMore =
     "[[cloths]]\ncenter = [0.02, -0.02, 0.0]\n[[cloths]]\ncenter = [0.5, 0.1, 0.3]\n";
 
-/// Runs the pass for one cloth and for three of every size and shape, after the mirrors of those before it,
+/// Runs the passes for one cloth and for three of every size and shape, after the mirrors of those before it,
 /// and calls look(buffers) with what the mirror leaves.
-void expect_as_mirror(const Pass& pass, const std::vector<const Pass*>& before_it,
+void expect_as_mirror(const std::vector<const Pass*>& passes, const std::vector<const Pass*>& before_them,
                       const std::function<void(const HostBuffers<float>&)>& look,
                       std::span<const Size> sizes = kSizes) {
   std::uint64_t seed = 0;
@@ -185,14 +185,15 @@ void expect_as_mirror(const Pass& pass, const std::vector<const Pass*>& before_i
       SCOPED_TRACE(
           fmt::format("{} of {} x {}, {}", model.grid.cloths, model.grid.nx, model.grid.ny, shape.name));
       HostBuffers<float> before = buffers_of(model, plan, shape, ++seed);
-      for (const Pass* earlier : before_it) run_mirror(*earlier, model, before);
+      for (const Pass* earlier : before_them) run_mirror(*earlier, model, before);
       HostBuffers<float> expected = before;
-      run_mirror(pass, model, expected);
+      for (const Pass* pass : passes) run_mirror(*pass, model, expected);
       for (const auto& [name, engine] : engines) {
         SCOPED_TRACE(name);
         HostBuffers<float> got = before;
         engine->load(got);
-        engine->look(pass, {.model = model, .constants = {}, .row = kNoTime}, got);
+        for (const Pass* pass : passes)
+          engine->look(*pass, {.model = model, .constants = {}, .row = kNoTime}, got);
         expect_same_buffers(std::move(got), expected);
       }
       look(expected);
@@ -207,7 +208,7 @@ void expect_as_mirror(const Pass& pass, const std::vector<const Pass*>& before_i
 
 TEST(NativeSelfCollision, CountsCellsAsTheMirror) {
   std::size_t bends = 0, close = 0;
-  expect_as_mirror(cell_count, {&carry, &pair_check}, [&](const HostBuffers<float>& buffers) {
+  expect_as_mirror({&cell_count}, {&carry, &pair_check}, [&](const HostBuffers<float>& buffers) {
     const auto& boxes = buffers[BufferId::patches];
     for (std::size_t p = 0; p < boxes.size(); p += 2) {
       bends += boxes[p + 1].w != 0.0f;
@@ -234,10 +235,10 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
       std::normal_distribution<float> speed(0.0f, 2.0f);
       for (glm::vec4& v : before[BufferId::velocity]) v = {speed(random), speed(random), speed(random), 0};
       for (const Pass* earlier :
-           {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near, &pair_gather})
+           {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near})
         run_mirror(*earlier, model, before);
       HostBuffers<float> expected = before;
-      for (const Pass* pass : {&surface_gather, &touch_weight, &surface_touch})
+      for (const Pass* pass : {&pair_gather, &surface_gather, &touch_weight, &surface_touch})
         run_mirror(*pass, model, expected);
       const std::vector<std::uint32_t> nothing = expected.words_of(BufferId::surface_sums);
       run_mirror(surface_contact, model, expected);
@@ -246,6 +247,7 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
         const MirrorContext context{.model = model, .constants = {}, .row = kNoTime};
         HostBuffers<float> got = before;
         engine->load(got);
+        engine->look(pair_gather, context, got);
         engine->look(surface_gather, context, got);
         run_mirror(touch_weight, model, got);
         engine->look(surface_touch, context, got);
@@ -264,7 +266,7 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
 
 TEST(NativeSelfCollision, LooksNearAsTheMirror) {
   std::size_t far = 0, beside = 0, neither = 0;
-  expect_as_mirror(patch_near, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},
+  expect_as_mirror({&patch_near}, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},
                    [&](const HostBuffers<float>& buffers) {
                      for (const std::uint32_t looks : buffers.words_of(BufferId::patch_listed)) {
                        far += (looks & shared::kLooksFar) != 0;
@@ -277,21 +279,17 @@ TEST(NativeSelfCollision, LooksNearAsTheMirror) {
 
 // In the mirrors' order, and with lists that overflow where particles are scattered.
 TEST(NativeSelfCollision, GathersAsTheMirrors) {
-  const std::vector<const Pass*> before_it{&carry,     &pair_check, &cell_count, &cell_scan,
-                                           &cell_fill, &cell_sort,  &patch_near};
-  std::size_t dropped[2]{}, listed[2]{};
-  const auto gathers = [&](const Pass& pass, BufferId counts, std::size_t which) {
-    expect_as_mirror(
-        pass, before_it,
-        [&](const HostBuffers<float>& buffers) {
-          for (const std::uint32_t count : buffers.words_of(counts)) listed[which] += count;
-          dropped[which] += buffers.words_of(BufferId::collision_state)[shared::kPairsDropped];
-        },
-        kSmallSizes);
-  };
-  gathers(pair_gather, BufferId::pair_count, 0);
-  gathers(surface_gather, BufferId::surface_count, 1);
-  for (const std::size_t count : {dropped[0], dropped[1], listed[0], listed[1]}) EXPECT_GT(count, 10'000u);
+  std::size_t pairs = 0, surfaces = 0, dropped = 0;
+  expect_as_mirror(
+      {&pair_gather, &surface_gather},
+      {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near},
+      [&](const HostBuffers<float>& buffers) {
+        for (const std::uint32_t count : buffers.words_of(BufferId::pair_count)) pairs += count;
+        for (const std::uint32_t count : buffers.words_of(BufferId::surface_count)) surfaces += count;
+        dropped += buffers.words_of(BufferId::collision_state)[shared::kPairsDropped];
+      },
+      kSmallSizes);
+  for (const std::size_t count : {pairs, surfaces, dropped}) EXPECT_GT(count, 10'000u);
 }
 
 /// Lists as if they had been made and contacts looked at: particles have moved since by up to 1.5 of their
