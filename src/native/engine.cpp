@@ -68,7 +68,7 @@ Means means_of(const Pass& pass, const Plan& plan) {
                                      &xpbd_bend,    &xpbd_tethers,   &xpbd_finish};
   if (std::ranges::count(kSwept, &pass) > 0) return Means::sweep;
   if ((&pass == &solid_contact || &pass == &mesh_contact) && sweep_touches_bodies(plan)) return Means::sweep;
-  if (SelfCollision::has(pass, plan)) return Means::look;
+  if (SelfCollision::has(pass)) return Means::look;
   return Effects::has(pass) ? Means::effect : Means::mirror;
 }
 

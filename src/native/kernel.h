@@ -292,9 +292,11 @@ struct NearLevel {
 };
 inline constexpr std::size_t kNearLevels = 8;
 
-/// Rows [first, last) of leaves of nx × ny patches: which patches have others near.
+/// Rows [first, last) of leaves of cloths of nx × ny patches each: which patches have others near. Every
+/// cloth begins with leaves of its own.
 struct NearLook {
   std::size_t nx, ny, first, last;
+  std::size_t leaf_rows;                                ///< of a cloth
   const float* boxes;                                   ///< two vec4 a patch
   float inverse_cell, cells_most, far_cells, distance;  ///< cells that a search goes beyond a box; [m]
   int cells_across;                                     ///< as many of the grid along an axis are looked at
@@ -302,6 +304,14 @@ struct NearLook {
   NearLevel levels[kNearLevels];
   std::size_t level_count;
   std::uint32_t* listed;  ///< by patch
+};
+
+/// Points in blocks of kColumns: all x, all y, all z [m]; those of them that are nearer to a point.
+struct NearPoints {
+  const float* points;
+  std::size_t count;  ///< of whole blocks
+  float at[3], squared;
+  std::uint32_t* found;  ///< result, room for all: their places, ascending
 };
 
 /// Two surfaces nearer than their limit: of the four particles the weights of their motion in the distance,
@@ -344,6 +354,7 @@ struct Kernels {
   void (*make_near_leaves)(const NearLook&);
   void (*make_near_levels)(const NearLook&);  ///< once all leaves are made
   void (*look_near)(const NearLook&);
+  std::size_t (*find_near)(const NearPoints&);           ///< returns how many
   std::size_t (*look_at_triangles)(const SurfaceLook&);  ///< returns how many touch
   std::size_t (*look_at_edges)(const SurfaceLook&);
   void (*xpbd_predict)(const XpbdMove&);

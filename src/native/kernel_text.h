@@ -51,6 +51,7 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 #include "native/air_text.h"
 #include "native/contact_text.h"
 #include "native/fold_text.h"
+#include "native/gather_text.h"
 #include "native/leash_text.h"
 #include "native/link_text.h"
 #include "native/near_text.h"
@@ -355,6 +356,7 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           make_near_leaves,
           make_near_levels,
           look_near,
+          find_near,
           look_at_surfaces<false>,
           look_at_surfaces<true>,
           xpbd_predict,

@@ -22,6 +22,14 @@ WEFT_INLINE void join(const NearNode& from, NearNode& to, int lane) {
   }
 }
 
+/// The first row of patches of a row of leaves, within its cloth; and how many the cloths before it have.
+WEFT_INLINE Index row_of_leaf(const NearLook& look, Index y) { return 4 * (y % look.leaf_rows); }
+WEFT_INLINE Index rows_before_leaf(const NearLook& look, Index y) { return y / look.leaf_rows * look.ny; }
+/// The k-th patch of leaf (x, y).
+WEFT_INLINE Index patch_of_leaf(const NearLook& look, Index x, Index y, Index k) {
+  return (rows_before_leaf(look, y) + row_of_leaf(look, y) + k / 4) * look.nx + 4 * x + k % 4;
+}
+
 /// Leaves of rows [first, last) from their patches' boxes; one that the grid does not cover is near nothing.
 void make_near_leaves(const NearLook& look) {
   const NearLevel& level = look.levels[0];
@@ -30,9 +38,8 @@ void make_near_leaves(const NearLook& look) {
       NearNode& leaf = level.nodes[y * level.across + x];
       clear(leaf);
       for (Index k = 0; k < kColumns; ++k) {
-        const Index i = 4 * x + k % 4, j = 4 * y + k / 4;
-        if (i >= look.nx || j >= look.ny) continue;
-        const float* const box = look.boxes + 8 * (j * look.nx + i);
+        if (4 * x + k % 4 >= look.nx || row_of_leaf(look, y) + k / 4 >= look.ny) continue;
+        const float* const box = look.boxes + 8 * patch_of_leaf(look, x, y, k);
         bool inside = true;
         for (int end = 0; end < 6; ++end) {
           const float at = box[end / 3 * 4 + end % 3] * look.inverse_cell;
@@ -88,8 +95,8 @@ WEFT_INLINE NearLeaf open_leaf(const NearLook& look, Index x, Index y) {
     leaf.far |= bits_of(wide & inside) << base;
   }
   for (Index k = 0; k < kColumns; ++k) {
-    const Index patch = (4 * y + k / 4) * look.nx + 4 * x + k % 4;
-    if ((leaf.open >> k & 1u) != 0 && (look.overlooks || look.boxes[8 * patch + 3] == 0.0f))
+    if ((leaf.open >> k & 1u) != 0 &&
+        (look.overlooks || look.boxes[8 * patch_of_leaf(look, x, y, k) + 3] == 0.0f))
       leaf.far |= 1u << k;
   }
   leaf.open &= ~leaf.far;
@@ -141,7 +148,8 @@ WEFT_INLINE void look_at_leaf(const NearLook& look, NearLeaf& leaf, Index x, Ind
   const NearLevel& level = look.levels[0];
   const NearNode &own = level.nodes[leaf.y * level.across + leaf.x],
                  &other = level.nodes[y * level.across + x];
-  const bool adjacent = x + 1 >= leaf.x && x <= leaf.x + 1 && y + 1 >= leaf.y && y <= leaf.y + 1;
+  const bool adjacent = x + 1 >= leaf.x && x <= leaf.x + 1 && y + 1 >= leaf.y && y <= leaf.y + 1 &&
+                        y / look.leaf_rows == leaf.y / look.leaf_rows;
   const Vec distance = splat(look.distance);
   for (unsigned open = leaf.open & near_boxes(own, all, distance); open != 0; open &= open - 1) {
     const auto k = static_cast<Index>(__builtin_ctz(open));
@@ -184,7 +192,7 @@ void look_near(const NearLook& look) {
       search_leaf(look, leaf);
       for (unsigned far = leaf.far; far != 0; far &= far - 1) {
         const auto k = static_cast<Index>(__builtin_ctz(far));
-        look.listed[(4 * y + k / 4) * look.nx + 4 * x + k % 4] |= look.looks_far;
+        look.listed[patch_of_leaf(look, x, y, k)] |= look.looks_far;
       }
     }
 }

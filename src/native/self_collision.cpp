@@ -6,7 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "native/crew_rows.h"
 #include "passes/carry.h"
 #include "passes/folds.h"
 #include "passes/leash.h"
@@ -17,8 +16,8 @@
 namespace weft::native {
 namespace {
 
-constexpr std::array kLooking{&carry,          &pair_check,    &cell_count,     &patch_near,
-                              &surface_gather, &surface_touch, &surface_contact};
+constexpr std::array kLooking{&carry,       &pair_check,     &cell_count,    &patch_near,
+                              &pair_gather, &surface_gather, &surface_touch, &surface_contact};
 
 /// The cells of the cloth are `a` wide, and nothing within flat_min = 0.55055·a of each other is overlooked.
 Smooth smooth_for(const CollisionView<float>& view) {
@@ -35,38 +34,38 @@ SelfCollision::SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& 
       kernels_(kernels),
       view_(model),
       contacts_(view_, kernels),
+      near_lists_(view_, kernels),
       shares_motion_(shares_motion(model)),
       left_over_(4 * std::size_t{PatchGrid(model.grid).count()}) {
   for (std::size_t j = 0; j < cloth.rows(); ++j) rows_.push_back(cloth.row(j));
-  if (model.grid.cloths == 1) make_room_for_tree();
+  make_room_for_tree();
   if (watches) watch_.emplace(std::min(view_.layout.stale_m, view_.layout.roam_max_m));
 }
 
 void SelfCollision::make_room_for_tree() {
   const PatchGrid patches(view_.grid);
-  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}));
-  std::size_t across = patches.nx(), down = patches.ny(), count = 0;
-  do {
+  bends_.resize((patches.nx() + std::size_t{2}) * (patches.ny() + std::size_t{2}) * view_.grid.cloths);
+  std::size_t across = (patches.nx() + 3) / 4, down = leaf_rows() * view_.grid.cloths, count = across * down;
+  levels_.push_back({.nodes = nullptr, .across = across, .down = down});
+  while (across * down > 1) {
     across = (across + 3) / 4, down = (down + 3) / 4;
     levels_.push_back({.nodes = nullptr, .across = across, .down = down});
     count += across * down;
-  } while (across * down > 1);
+  }
   nodes_.resize(count);
   NearNode* place = nodes_.data();
   for (NearLevel& level : levels_) level.nodes = std::exchange(place, place + level.across * level.down);
 }
 
+/// Rows of leaves of one cloth.
+std::size_t SelfCollision::leaf_rows() const { return (PatchGrid(view_.grid).ny() + std::size_t{3}) / 4; }
+
 std::uint64_t SelfCollision::bytes() const {
   return scratch_.size() * sizeof(float) + left_over_.size() * sizeof(std::uint32_t) +
-         nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes();
+         nodes_.size() * sizeof(NearNode) + bends_.size() + contacts_.bytes() + near_lists_.bytes();
 }
 
-/// With several cloths the patches' passes are the mirrors': the kernels take rows below each other for one
-/// cloth's.
-bool SelfCollision::has(const Pass& pass, const Plan& plan) {
-  if (plan.sheet_rows != 0 && (&pass == &cell_count || &pass == &patch_near)) return false;
-  return std::ranges::count(kLooking, &pass) > 0;
-}
+bool SelfCollision::has(const Pass& pass) { return std::ranges::count(kLooking, &pass) > 0; }
 
 bool SelfCollision::reads_buffers(const Pass& pass) {
   return &pass == &cell_count || &pass == &surface_gather;
@@ -83,10 +82,8 @@ bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuff
   if (&pass == &patch_near && lists_stale(buffers)) look_near(buffers, crew, threads);
   if (&pass == &surface_touch) contacts_.touch(buffers, crew, threads);
   if (&pass == &surface_contact) contacts_.respond(buffers, crew, threads);
-  if (&pass == &surface_gather) {  // its mirror's, which several threads run
-    CrewRows rows(crew, threads);
-    const RowThreadsInUse in_use(rows);
-    pass.mirror_f32(context, buffers);
+  if (&pass == &surface_gather) {  // and pair_gather, which stands before it
+    near_lists_.gather(buffers, crew, threads);
     contacts_.forget_lists();
   }
   return false;
@@ -205,11 +202,9 @@ std::size_t SelfCollision::look_at_patches(HostBuffers<float>& buffers, Crew& cr
   std::vector<PatchLook> looks(threads, {.stride = cloth_.sheet().stride,
                                          .nx = cloth_.nx(),
                                          .ny = cloth_.ny(),
-                                         .rows = rows_.data(),
                                          .search_squared = view_.patch_search_squared,
                                          .flat_min = view_.flat_min,
-                                         .smooth = smooth_for(view_),
-                                         .boxes = &buffers[BufferId::patches][0].x});
+                                         .smooth = smooth_for(view_)});
   creased_.resize(threads);
   crew.run(threads, [&](std::uint32_t own) {
     kernels_.write_places({.stride = cloth_.sheet().stride,
@@ -219,18 +214,16 @@ std::size_t SelfCollision::look_at_patches(HostBuffers<float>& buffers, Crew& cr
                            .rows = rows_.data(),
                            .places = &buffers[BufferId::built_position][0].x});
     PatchLook& look = looks[own];
-    look.first = std::size_t{own} * patches.rows() / threads;
-    look.last = (own + std::size_t{1}) * patches.rows() / threads;
     look.scratch = scratch_.data() + own * floats;
-    look.left_over = left_over_.data() + 4 * look.first * patches.nx();
-    const std::size_t count = look.first < look.last ? kernels_.look_at_patches(look) : 0;
-    creased_[own] = {look.left_over, count};
+    creased_[own].clear();
+    look_at_rows(std::size_t{own} * patches.rows() / threads,
+                 (own + std::size_t{1}) * patches.rows() / threads, look, buffers, creased_[own]);
   });
   auto& longest = buffers.words_of(BufferId::collision_state)[shared::kLongestEdge];
   std::size_t left_over = 0;
   for (std::uint32_t own = 0; own < threads; ++own) {
     longest = std::max(longest, looks[own].longest);
-    left_over += creased_[own].size();
+    for (const LeftOver& cells : creased_[own]) left_over += cells.cells.size();
   }
   return left_over;
 }
@@ -253,7 +246,7 @@ void SelfCollision::count_cells(HostBuffers<float>& buffers, Crew& crew, std::ui
   crew.run(threads, [&](std::uint32_t own) {
     const std::size_t particles = view_.grid.count();
     clear_lists(buffers, own * particles / threads, (own + std::size_t{1}) * particles / threads);
-    look_closely(creased_[own], buffers);
+    for (const LeftOver& cells : creased_[own]) look_closely(cells, buffers);
   });
   box_blocks(buffers, crew, threads);
   count_blocks(view_, PatchGrid(view_.grid), buffers);
@@ -264,11 +257,12 @@ bool SelfCollision::make_empty_lists(HostBuffers<float>& buffers, Crew& crew, st
   auto& state = buffers.words_of(BufferId::collision_state);
   const bool were_empty =
       state[shared::kListsArmed] != 0 && state[shared::kPairsListed] == 0 && state[shared::kLookers] == 0;
-  if (!were_empty || view_.grid.cloths != 1 || !lists_stale(buffers)) return false;
+  if (!were_empty || !lists_stale(buffers)) return false;
   make_room_for_lists(view_.grid, buffers);
   if (look_at_patches(buffers, crew, threads) > 0) {
     need_positions();
-    for (const auto& cells : creased_) look_closely(cells, buffers);
+    for (const auto& of_thread : creased_)
+      for (const LeftOver& cells : of_thread) look_closely(cells, buffers);
   }
   box_blocks(buffers, crew, threads);
   look_near(buffers, crew, threads);
@@ -279,28 +273,65 @@ bool SelfCollision::make_empty_lists(HostBuffers<float>& buffers, Crew& crew, st
   return true;
 }
 
-/// Of cells that no three planes part, 4·patch + k each: those that are creased, with the mirror's own code.
-void SelfCollision::look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const {
+/// Rows of patches of all cloths, one cloth's after the other's: the kernel knows but one.
+void SelfCollision::look_at_rows(std::size_t first, std::size_t last, PatchLook& look,
+                                 HostBuffers<float>& buffers, std::vector<LeftOver>& left_over) {
   const PatchGrid patches(view_.grid);
+  const std::size_t down = patches.ny();
+  std::uint32_t longest = 0;
+  for (std::size_t row = first; row < last;) {
+    const std::size_t cloth = row / down, end = std::min(last, (cloth + 1) * down);
+    const std::size_t patches_before = cloth * down * patches.nx();
+    look.rows = rows_.data() + cloth * cloth_.ny();
+    look.boxes = &buffers[BufferId::patches][2 * patches_before].x;
+    look.first = row - cloth * down, look.last = end - cloth * down;
+    look.left_over = left_over_.data() + 4 * row * patches.nx();
+    const std::size_t count = kernels_.look_at_patches(look);
+    longest = std::max(longest, look.longest);
+    if (count > 0) left_over.push_back({{look.left_over, count}, static_cast<std::uint32_t>(patches_before)});
+    row = end;
+  }
+  look.longest = longest;
+}
+
+/// Of cells that no three planes part, 4·patch + k each, counted in their cloth: those that are creased, with
+/// the mirror's own code.
+void SelfCollision::look_closely(const LeftOver& left_over, HostBuffers<float>& buffers) const {
+  const PatchGrid patches(view_.grid);
+  const std::span<const std::uint32_t> cells = left_over.cells;
   for (auto cell = cells.begin(); cell != cells.end();) {
-    const std::uint32_t patch = *cell / 4;
+    const std::uint32_t in_cloth = *cell / 4, patch = left_over.patches_before + in_cloth;
     const Folds<float> folds(view_, patches, buffers[BufferId::position], patch);
     bool creased = false;
-    for (; cell != cells.end() && *cell / 4 == patch; ++cell)
+    for (; cell != cells.end() && *cell / 4 == in_cloth; ++cell)
       creased = creased || folds.diagonal_in_reach(*cell % 4);
     if (creased) buffers[BufferId::patches][2 * std::size_t{patch} + 1].w += float{shared::kCreased};
   }
 }
 
+/// Calls act(y, patch, above) for the rows of patches of rows of leaves: which row of its cloth, its first
+/// patch, and where in bends_ the row above begins.
+template <class Act>
+void SelfCollision::in_each_row_of(std::size_t first, std::size_t last, const Act& act) const {
+  const PatchGrid patches(view_.grid);
+  const std::size_t down = patches.ny(), across = patches.nx() + std::size_t{2};
+  for (std::size_t leaves = first; leaves < last; ++leaves) {
+    const std::size_t cloth = leaves / leaf_rows(), begin = 4 * (leaves % leaf_rows());
+    for (std::size_t y = begin; y < std::min(begin + 4, down); ++y)
+      act(y, (cloth * down + y) * patches.nx(), (cloth * (down + 2) + y) * across);
+  }
+}
+
 void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads) {
   const PatchGrid patches(view_.grid);
-  const std::size_t nx = patches.nx(), ny = patches.ny(), leaf_rows = levels_[0].down;
+  const std::size_t nx = patches.nx(), leaves_down = levels_[0].down;
   const auto& boxes = buffers[BufferId::patches];
   auto& listed = buffers.words_of(BufferId::patch_listed);
   listed.resize(patches.count());
   const PatchSearch<float> search(view_, buffers);
   NearLook all{.nx = nx,
-               .ny = ny,
+               .ny = patches.ny(),
+               .leaf_rows = leaf_rows(),
                .boxes = &boxes[0].x,
                .inverse_cell = view_.inverse_cell,
                .cells_most = shared::kCellsFromOriginMax,
@@ -314,32 +345,34 @@ void SelfCollision::look_near(HostBuffers<float>& buffers, Crew& crew, std::uint
   std::ranges::copy(levels_, all.levels);
   const auto part_of = [&](std::uint32_t own) {
     NearLook part = all;
-    part.first = own * leaf_rows / threads;
-    part.last = (own + std::size_t{1}) * leaf_rows / threads;
+    part.first = own * leaves_down / threads;
+    part.last = (own + std::size_t{1}) * leaves_down / threads;
     return part;
   };
   crew.run(threads, [&](std::uint32_t own) {
     const NearLook part = part_of(own);
     kernels_.make_near_leaves(part);
-    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
+    in_each_row_of(part.first, part.last, [&](std::size_t, std::size_t patch, std::size_t above) {
       for (std::size_t x = 0; x < nx; ++x)
-        bends_[(y + 1) * (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (y * nx + x) + 1].w);
+        bends_[above + (nx + 2) + x + 1] = static_cast<std::uint8_t>(boxes[2 * (patch + x) + 1].w);
+    });
   });
   kernels_.make_near_levels(all);
   crew.run(threads, [&](std::uint32_t own) {
     const NearLook part = part_of(own);
-    for (std::size_t y = 4 * part.first; y < std::min(4 * part.last, ny); ++y)
-      for (std::size_t x = 0; x < nx; ++x) listed[y * nx + x] = looks_beside(x, y);
+    in_each_row_of(part.first, part.last, [&](std::size_t y, std::size_t patch, std::size_t above) {
+      for (std::size_t x = 0; x < nx; ++x) listed[patch + x] = looks_beside(x, y, &bends_[above + x]);
+    });
     kernels_.look_near(part);
   });
   tell_lookers(view_, patches, buffers);
 }
 
 /// The bits of the particles that are at a folded cell; of all of them where a diagonal nearby is creased.
-std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y) const {
+/// @param bends  of the patch above and to the left
+std::uint32_t SelfCollision::looks_beside(std::size_t x, std::size_t y, const std::uint8_t* bends) const {
   const std::size_t across = (view_.grid.nx + std::size_t{1}) / 2 + 2;
-  const std::uint8_t *const above = bends_.data() + y * across + x, *const own = above + across,
-                            *const below = own + across;
+  const std::uint8_t *const above = bends, *const own = above + across, *const below = own + across;
   const auto together = [](const std::uint8_t* row) { return std::uint32_t(row[0] | row[1] | row[2]); };
   const std::uint32_t round = together(above) | together(own) | together(below);
   if (round == 0) return 0;

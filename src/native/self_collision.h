@@ -8,9 +8,9 @@
 #include "native/cloth.h"
 #include "native/crew.h"
 #include "native/motion_watch.h"
+#include "native/near_lists.h"
 #include "native/surface_contacts.h"
 #include "passes/collision.h"
-#include "plan/plan.h"
 
 namespace weft::native {
 
@@ -21,7 +21,7 @@ class SelfCollision {
   SelfCollision(Cloth& cloth, const Kernels& kernels, const Model& model, bool watches);
 
   /// Whether the pass of the plan runs here.
-  static bool has(const Pass& pass, const Plan& plan);
+  static bool has(const Pass& pass);
   /// Whether it reads positions in the buffers, too.
   static bool reads_buffers(const Pass& pass);
   /// One dispatch of such a pass, in that many of the crew's threads. Returns whether rows have changed.
@@ -51,23 +51,35 @@ class SelfCollision {
   void box_blocks(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void count_cells(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
   void look_near(HostBuffers<float>& buffers, Crew& crew, std::uint32_t threads);
-  std::uint32_t looks_beside(std::size_t x, std::size_t y) const;
+  std::uint32_t looks_beside(std::size_t x, std::size_t y, const std::uint8_t* bends) const;
   void make_room_for_tree();
-  void look_closely(std::span<const std::uint32_t> cells, HostBuffers<float>& buffers) const;
+  std::size_t leaf_rows() const;
+  template <class Act>
+  void in_each_row_of(std::size_t first, std::size_t last, const Act& act) const;
+  /// Cells 4·patch + k of a cloth that has so many patches before it.
+  struct LeftOver {
+    std::span<const std::uint32_t> cells;
+    std::uint32_t patches_before;
+  };
+  void look_at_rows(std::size_t first, std::size_t last, PatchLook& look, HostBuffers<float>& buffers,
+                    std::vector<LeftOver>& left_over);
+  void look_closely(const LeftOver& left_over, HostBuffers<float>& buffers) const;
 
   Cloth& cloth_;
   const Kernels& kernels_;
   CollisionView<float> view_;
   SurfaceContacts contacts_;
+  NearLists near_lists_;
   bool shares_motion_;
   std::optional<MotionWatch> watch_;
   std::vector<const float*> rows_;  ///< by row of all cloths
   std::vector<float> scratch_;      ///< of each thread
   std::vector<std::uint32_t> left_over_;
-  std::vector<std::span<const std::uint32_t>> creased_;  ///< cells that look_at_patches left over
-  std::vector<NearNode> nodes_;                          ///< of all levels of the tree
-  std::vector<NearLevel> levels_;                        ///< the leaves first
-  std::vector<std::uint8_t> bends_;  ///< by patch, one more on every side: as cell_count has said
+  std::vector<std::vector<LeftOver>> creased_;  ///< what look_at_patches left over, by thread
+  std::vector<NearNode> nodes_;                 ///< of all levels of the tree
+  std::vector<NearLevel> levels_;               ///< the leaves first
+  /// By patch, one more on every side of each cloth: as cell_count has said.
+  std::vector<std::uint8_t> bends_;
 };
 
 }  // namespace weft::native

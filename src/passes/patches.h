@@ -170,12 +170,55 @@ class PatchSearch {
     return most;
   }
 
+  /// Cells, both ends included, and whether those are all that were asked for.
+  struct CellRange {
+    Cell first{}, last{};
+    bool all = true;
+    bool has(const Cell& cell) const {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (cell[axis] < first[axis] || cell[axis] > last[axis]) return false;
+      return true;
+    }
+  };
+  /// The cells in which blocks' middles are that have a particle within `search` of the box, as many along an
+  /// axis at most.
+  CellRange cells_around(const V& low, const V& high, T search,
+                         int across_max = shared::kCellsAcrossMax) const {
+    const T far_cells = cells_beyond(search);
+    CellRange range;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<std::size_t>(axis);
+      const T begin = std::floor(low[axis] * view_.inverse_cell - far_cells),
+              end = std::floor(high[axis] * view_.inverse_cell + far_cells);
+      const T cut = std::min(end, begin + static_cast<T>(across_max - 1));
+      range.first[at] = static_cast<std::int32_t>(begin);
+      range.last[at] = static_cast<std::int32_t>(cut);
+      range.all &= cut == end;
+    }
+    return range;
+  }
+
+  /// Calls visit(block, cell) for each member of the cells' buckets, cell by cell; the same block may come
+  /// twice. It ends when visit returns true.
+  template <class Visit>
+  void each_member(const CellRange& cells, Visit&& visit) const {
+    for (std::int32_t z = cells.first[2]; z <= cells.last[2]; ++z)
+      for (std::int32_t y = cells.first[1]; y <= cells.last[1]; ++y)
+        for (std::int32_t x = cells.first[0]; x <= cells.last[0]; ++x) {
+          const std::uint32_t bucket = view_.bucket_of({x, y, z});
+          for (std::uint32_t slot = cells_[bucket]; slot < cells_[bucket + 1]; ++slot)
+            if (visit(members_[slot], Cell{x, y, z})) return;
+        }
+  }
+
   /// Calls visit(block) for each member of the buckets of the cells in which blocks' middles are that have a
   /// particle within `search` of the box; the same may come twice. It ends when visit returns true.
   /// @return whether those were all cells
   template <class Visit>
   bool around(const V& low, const V& high, T search, Visit&& visit) const {
-    return each_member(low, high, search, [&](std::uint32_t block, const Cell&) { return visit(block); });
+    const CellRange cells = cells_around(low, high, search);
+    each_member(cells, [&](std::uint32_t block, const Cell&) { return visit(block); });
+    return cells.all;
   }
 
   /// Calls visit(q) for the particles of the patches that may have one within `search` of p, but for p and
@@ -194,41 +237,18 @@ class PatchSearch {
         for (std::uint32_t i = block.i0; i <= block.i1; ++i)
           if (!(own_cloth && close_by(i, column) && close_by(j, row))) visit(grid.index(i, j));
     };
+    const CellRange cells = cells_around(x, x, search);
     // Which cell a block is in costs more to say than whether it is near: asked last. One that is looked into
     // only where its own cell asks for its bucket is looked into once.
-    return each_member(x, x, search, [&](std::uint32_t other, const Cell& cell) {
+    each_member(cells, [&](std::uint32_t other, const Cell& cell) {
       if (gap(x, x, block_low(other), block_high(other)) < search && cell_of(other) == cell)
         patches.each_of(patches.patches_of(other), look_into);
       return false;
     });
+    return cells.all;
   }
 
  private:
-  /// As around(), with visit(block, cell): the cell whose bucket was looked into.
-  template <class Visit>
-  bool each_member(const V& low, const V& high, T search, Visit&& visit) const {
-    const T far_cells = cells_beyond(search);
-    Cell first{}, last{};
-    bool all = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto at = static_cast<std::size_t>(axis);
-      const T begin = std::floor(low[axis] * view_.inverse_cell - far_cells),
-              end = std::floor(high[axis] * view_.inverse_cell + far_cells);
-      const T cut = std::min(end, begin + T(shared::kCellsAcrossMax - 1));
-      first[at] = static_cast<std::int32_t>(begin);
-      last[at] = static_cast<std::int32_t>(cut);
-      all &= cut == end;
-    }
-    for (std::int32_t z = first[2]; z <= last[2]; ++z)
-      for (std::int32_t y = first[1]; y <= last[1]; ++y)
-        for (std::int32_t x = first[0]; x <= last[0]; ++x) {
-          const std::uint32_t bucket = view_.bucket_of({x, y, z});
-          for (std::uint32_t slot = cells_[bucket]; slot < cells_[bucket + 1]; ++slot)
-            if (visit(members_[slot], Cell{x, y, z})) return all;
-        }
-    return all;
-  }
-
   static constexpr T kRoom = static_cast<T>(1.0009765625), kHalfRoom = static_cast<T>(0.5009765625);
 
   const CollisionView<T>& view_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "model/measures.h"
@@ -149,15 +151,15 @@ std::uint32_t settled(std::uint32_t bits) {
   return std::isnan(value) ? std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN()) : bits;
 }
 
-void expect_same_buffers(HostBuffers<float> got, const HostBuffers<float>& expected) {
+void expect_same_buffers(HostBuffers<float>&& got, const HostBuffers<float>& expected) {
   std::uint32_t& longest = got.words_of(BufferId::collision_state)[shared::kLongestEdge];
   const std::uint32_t right_longest = expected.words_of(BufferId::collision_state)[shared::kLongestEdge];
   if (settled(longest) == settled(right_longest)) longest = right_longest;
   for (const BufferRow& row : kBufferRows) {
     const auto &words = got.words_of(row.id), &right_words = expected.words_of(row.id);
     ASSERT_EQ(words.size(), right_words.size()) << row.name;
-    for (std::size_t k = 0; k < words.size(); ++k)
-      ASSERT_EQ(words[k], right_words[k]) << row.name << " " << k;
+    const auto differs = std::ranges::mismatch(words, right_words);
+    ASSERT_TRUE(differs.in1 == words.end()) << row.name << " " << differs.in1 - words.begin();
     const auto &vectors = got[row.id], &right_vectors = expected[row.id];
     ASSERT_EQ(vectors.size(), right_vectors.size()) << row.name;
     for (std::size_t k = 0; k < vectors.size(); ++k)
@@ -190,36 +192,50 @@ struct Size {
 };
 constexpr Size kSizes[] = {{2, 2}, {3, 2}, {5, 7}, {16, 33}, {17, 18}, {33, 37}, {64, 49}};
 
-/// Runs the pass on every size and shape, after the mirrors of those before it, and calls look(buffers) with
-/// what the mirror leaves.
-void expect_as_mirror(const Pass& pass, const std::vector<const Pass*>& before_it,
-                      const std::function<void(const HostBuffers<float>&)>& look) {
+/// Without the largest, whose scattered particles all look at each other.
+constexpr std::span<const Size> kSmallSizes(kSizes, std::size(kSizes) - 2);
+
+/// A second cloth just beneath the first and a third away from both.
+constexpr const char* kTwoMore =
+    "[[cloths]]\ncenter = [0.02, -0.02, 0.0]\n[[cloths]]\ncenter = [0.5, 0.1, 0.3]\n";
+
+/// Runs the passes for one cloth and for three of every size and shape, after the mirrors of those before it,
+/// and calls look(buffers) with what the mirror leaves.
+void expect_as_mirror(const std::vector<const Pass*>& passes, const std::vector<const Pass*>& before_them,
+                      const std::function<void(const HostBuffers<float>&)>& look,
+                      std::span<const Size> sizes = kSizes) {
   std::uint64_t seed = 0;
-  for (const auto [columns, rows] : kSizes) {
-    const Model model = sheet_model(columns, rows, seed % 2 == 0 ? 0.3 : 0.9);
+  const auto expect_for = [&](const Model& model) {
     const Plan plan = compile_plan(model, find_solver("leapfrog"));
     const std::vector<NamedEngine> engines = engines_for(model, plan);
     for (const Shape& shape : shapes()) {
-      SCOPED_TRACE(fmt::format("{} x {}, {}", columns, rows, shape.name));
+      SCOPED_TRACE(
+          fmt::format("{} of {} x {}, {}", model.grid.cloths, model.grid.nx, model.grid.ny, shape.name));
       HostBuffers<float> before = buffers_of(model, plan, shape, ++seed);
-      for (const Pass* earlier : before_it) run_mirror(*earlier, model, before);
+      for (const Pass* earlier : before_them) run_mirror(*earlier, model, before);
       HostBuffers<float> expected = before;
-      run_mirror(pass, model, expected);
+      for (const Pass* pass : passes) run_mirror(*pass, model, expected);
       for (const auto& [name, engine] : engines) {
         SCOPED_TRACE(name);
         HostBuffers<float> got = before;
         engine->load(got);
-        engine->look(pass, {.model = model, .constants = {}, .row = kNoTime}, got);
+        for (const Pass* pass : passes)
+          engine->look(*pass, {.model = model, .constants = {}, .row = kNoTime}, got);
         expect_same_buffers(std::move(got), expected);
       }
       look(expected);
     }
+  };
+  std::size_t turn = 0;
+  for (const auto [columns, rows] : sizes) {
+    expect_for(sheet_model(columns, rows, turn % 2 == 0 ? 0.3 : 0.9));
+    expect_for(sheet_model(columns, rows, turn++ % 2 == 0 ? 0.9 : 0.3, kTwoMore));
   }
 }
 
 TEST(NativeSelfCollision, CountsCellsAsTheMirror) {
   std::size_t bends = 0, close = 0;
-  expect_as_mirror(cell_count, {&carry, &pair_check}, [&](const HostBuffers<float>& buffers) {
+  expect_as_mirror({&cell_count}, {&carry, &pair_check}, [&](const HostBuffers<float>& buffers) {
     const auto& boxes = buffers[BufferId::patches];
     for (std::size_t p = 0; p < boxes.size(); p += 2) {
       bends += boxes[p + 1].w != 0.0f;
@@ -246,10 +262,10 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
       std::normal_distribution<float> speed(0.0f, 2.0f);
       for (glm::vec4& v : before[BufferId::velocity]) v = {speed(random), speed(random), speed(random), 0};
       for (const Pass* earlier :
-           {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near, &pair_gather})
+           {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near})
         run_mirror(*earlier, model, before);
       HostBuffers<float> expected = before;
-      for (const Pass* pass : {&surface_gather, &touch_weight, &surface_touch})
+      for (const Pass* pass : {&pair_gather, &surface_gather, &touch_weight, &surface_touch})
         run_mirror(*pass, model, expected);
       const std::vector<std::uint32_t> nothing = expected.words_of(BufferId::surface_sums);
       run_mirror(surface_contact, model, expected);
@@ -258,6 +274,7 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
         const MirrorContext context{.model = model, .constants = {}, .row = kNoTime};
         HostBuffers<float> got = before;
         engine->load(got);
+        engine->look(pair_gather, context, got);
         engine->look(surface_gather, context, got);
         run_mirror(touch_weight, model, got);
         engine->look(surface_touch, context, got);
@@ -276,7 +293,7 @@ TEST(NativeSelfCollision, TouchesAndRespondsAsTheMirrors) {
 
 TEST(NativeSelfCollision, LooksNearAsTheMirror) {
   std::size_t far = 0, beside = 0, neither = 0;
-  expect_as_mirror(patch_near, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},
+  expect_as_mirror({&patch_near}, {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort},
                    [&](const HostBuffers<float>& buffers) {
                      for (const std::uint32_t looks : buffers.words_of(BufferId::patch_listed)) {
                        far += (looks & shared::kLooksFar) != 0;
@@ -285,6 +302,21 @@ TEST(NativeSelfCollision, LooksNearAsTheMirror) {
                      }
                    });
   for (const std::size_t count : {far, beside, neither}) EXPECT_GT(count, 1000u);
+}
+
+// In the mirrors' order, and with lists that overflow where particles are scattered.
+TEST(NativeSelfCollision, GathersAsTheMirrors) {
+  std::size_t pairs = 0, surfaces = 0, dropped = 0;
+  expect_as_mirror(
+      {&pair_gather, &surface_gather},
+      {&carry, &pair_check, &cell_count, &cell_scan, &cell_fill, &cell_sort, &patch_near},
+      [&](const HostBuffers<float>& buffers) {
+        for (const std::uint32_t count : buffers.words_of(BufferId::pair_count)) pairs += count;
+        for (const std::uint32_t count : buffers.words_of(BufferId::surface_count)) surfaces += count;
+        dropped += buffers.words_of(BufferId::collision_state)[shared::kPairsDropped];
+      },
+      kSmallSizes);
+  for (const std::size_t count : {pairs, surfaces, dropped}) EXPECT_GT(count, 10'000u);
 }
 
 /// Lists as if they had been made and contacts looked at: particles have moved since by up to 1.5 of their
