@@ -165,11 +165,12 @@ enum XpbdKind { kPullI, kPullJ, kPullDown, kPullUp, kPullTwoI, kPullTwoJ, kBendI
 struct XpbdTethers {
   XpbdSheet sheet;
   std::size_t first, last;
-  const float* reach;            ///< stride a row [m]; below 0 where there is none
-  const float* places;           ///< of each anchor where the substep began [m] and how far it has moved: 6
+  const float* reach;    ///< stride a row [m]; below 0 where there is none
+  const float* places;   ///< of each anchor where the substep began [m] and how far it has moved: 6
+  const float* several;  ///< by particle of such a block, x, y and z: 3·kColumns; null: they are left out
   const std::uint32_t* anchors;  ///< of each kColumns of a row, which of these all of them hang from
   std::size_t blocks;            ///< of a row
-  std::uint32_t no_anchor;       ///< of those that hang from several: they are left out
+  std::uint32_t no_anchor;       ///< added to the number of a block whose particles hang from several
 };
 
 /// Vertex normals of rows [first, last) of a cloth of nx × ny, and what is drawn.

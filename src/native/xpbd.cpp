@@ -13,7 +13,7 @@
 namespace weft::native {
 namespace {
 
-constexpr std::uint32_t kSeveralAnchors = ~0u;
+constexpr std::uint32_t kSeveralAnchors = 1u << 31;
 
 bool is_set(std::span<const Constant> constants, IntegrateConstant id) {
   return std::ranges::any_of(
@@ -127,6 +127,7 @@ void Xpbd::make_tether_rows() {
   std::ranges::sort(anchor_particles_);
   anchor_particles_.erase(std::ranges::unique(anchor_particles_).begin(), anchor_particles_.end());
   tether_reach_.assign(cloth_.rows() * stride, -1.0f);
+  std::uint32_t several = 0;
   for (std::size_t j = 0; j < cloth_.rows(); ++j)
     for (std::size_t b = 0; b < blocks; ++b) {
       const auto anchor_of = [&](std::size_t i) { return place_among(tethers_[j * nx + i].anchor); };
@@ -135,7 +136,9 @@ void Xpbd::make_tether_rows() {
         tether_reach_[j * stride + i] = tethers_[j * nx + i].reach_m;
         if (anchor_of(i) != all) all = kSeveralAnchors;
       }
+      if (all == kSeveralAnchors) all += several++;
     }
+  if (!anchors_move_) several_.resize(3 * kColumns * several);
   all_tethers_ = {.reach = tether_reach_.data(),
                   .anchors = anchors_.data(),
                   .blocks = blocks,
@@ -162,17 +165,50 @@ std::vector<float> Xpbd::anchor_places() {
   return places;
 }
 
-/// Of the band's rows, which are one cloth's.
-void Xpbd::pull_tethers(const Band& band, const std::vector<float>& places) {
+/// Where anchors are that stand still; those that differ within a block, by particle.
+void Xpbd::find_still_anchors() {
+  std::vector<float> places = anchor_places();
+  if (places == still_places_) return;
+  still_places_ = std::move(places);
+  const std::size_t nx = cloth_.nx(), blocks = all_tethers_.blocks;
+  for (std::size_t at = 0; at < anchors_.size(); ++at) {
+    if ((anchors_[at] & kSeveralAnchors) == 0) continue;
+    float* const to = several_.data() + 3 * kColumns * (anchors_[at] & ~kSeveralAnchors);
+    const std::size_t first = at % blocks * kColumns;
+    for (std::size_t i = first; i < std::min(nx, first + kColumns); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        to[axis * kColumns + i - first] =
+            still_places_[6 * std::size_t{place_among(tethers_[at / blocks * nx + i].anchor)} + axis];
+  }
+}
+
+/// Tethers whose anchors stand still row by row, while its places are at hand.
+void Xpbd::end_substep(const XpbdMove& part) const {
+  if (tethers_.empty() || anchors_move_) return kernels_.xpbd_finish(part);
+  XpbdTethers tethers = all_tethers_;
+  tethers.sheet = part.sheet;
+  tethers.places = still_places_.data();
+  tethers.several = several_.data();
+  XpbdMove row = part;
+  for (std::size_t j = part.first; j < part.last; ++j) {
+    tethers.first = row.first = j;
+    tethers.last = row.last = j + 1;
+    kernels_.xpbd_tethers(tethers);
+    kernels_.xpbd_finish(row);
+  }
+}
+
+/// Of rows [first, last) of the one cloth there is.
+void Xpbd::pull_tethers(std::size_t first_row, std::size_t last_row, const std::vector<float>& places) {
   XpbdTethers tethers = all_tethers_;
   tethers.sheet = move_.sheet;
-  tethers.first = band.first;
-  tethers.last = band.last;
+  tethers.first = first_row;
+  tethers.last = last_row;
   tethers.places = places.data();
   kernels_.xpbd_tethers(tethers);
   const std::size_t nx = cloth_.nx(), blocks = tethers.blocks;
-  for (std::size_t at = band.first * blocks; at < band.last * blocks; ++at) {
-    if (anchors_[at] != kSeveralAnchors) continue;
+  for (std::size_t at = first_row * blocks; at < last_row * blocks; ++at) {
+    if ((anchors_[at] & kSeveralAnchors) == 0) continue;
     const std::size_t row = at / blocks * nx, first = at % blocks * kColumns;
     for (std::size_t i = first; i < std::min(nx, first + kColumns); ++i)
       pull_tether(row + i, &places[6 * std::size_t{place_among(tethers_[row + i].anchor)}]);
@@ -224,7 +260,6 @@ void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
     }
     move_pins(band, kick);
     for (const Colour& colour : colours_) pull(colour, kick, band);
-    if (!tethers_.empty() && !anchors_move_) pull_tethers(band, still_places_);
     if (!tethers_.empty() && anchors_move_) {
       // Anchors may be any band's: all of them wait for all, before these are read and before they move on.
       // Tethers stand beside one cloth alone, so that every band waits for both its neighbours.
@@ -232,16 +267,16 @@ void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
         for (std::uint32_t other = 1; other < band.count; ++other) end_turn(band);
       };
       end_turns();
-      pull_tethers(band, anchor_places());
+      pull_tethers(band.first, band.last, anchor_places());
       end_turns();
     }
-    for (const XpbdMove& part : band.parts) kernels_.xpbd_finish(part);
+    for (const XpbdMove& part : band.parts) end_substep(part);
   }
 }
 
 void Xpbd::sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks) {
   for (Turns& turns : turns_) turns.done.store(0, std::memory_order_relaxed);
-  if (!anchors_move_) still_places_ = anchor_places();
+  if (!tethers_.empty() && !anchors_move_) find_still_anchors();
   crew.run(threads, [&](std::uint32_t own) { sweep_band(band_of(own, threads), kicks); });
 }
 

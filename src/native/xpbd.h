@@ -24,7 +24,8 @@ class Xpbd {
   /// Who is fixed has changed.
   void take_masses();
   std::uint64_t bytes() const {
-    return moved_bytes_ + tether_reach_.size() * sizeof(float) + anchors_.size() * sizeof(std::uint32_t);
+    return moved_bytes_ + (tether_reach_.size() + several_.size()) * sizeof(float) +
+           anchors_.size() * sizeof(std::uint32_t);
   }
 
  private:
@@ -53,7 +54,9 @@ class Xpbd {
   void make_tether_rows();
   std::uint32_t place_among(std::uint32_t anchor) const;
   std::vector<float> anchor_places();
-  void pull_tethers(const Band& band, const std::vector<float>& places);
+  void end_substep(const XpbdMove& part) const;
+  void pull_tethers(std::size_t first_row, std::size_t last_row, const std::vector<float>& places);
+  void find_still_anchors();
   void pull_tether(std::size_t particle, const float* anchor);
 
   Cloth& cloth_;
@@ -66,7 +69,7 @@ class Xpbd {
   std::vector<float> tether_reach_;  ///< as XpbdTethers has them
   std::vector<std::uint32_t> anchors_;
   std::vector<std::uint32_t> anchor_particles_;  ///< ascending
-  std::vector<float> still_places_;              ///< XpbdTethers' of anchors that no pin moves
+  std::vector<float> still_places_, several_;    ///< XpbdTethers' of anchors that no pin moves
   std::size_t moved_bytes_;
   Floats moved_;
   float interior_;  ///< inverse mass of an interior particle [1/kg]

@@ -327,11 +327,15 @@ void xpbd_tethers(const XpbdTethers& t) {
   for (Index j = t.first; j < t.last; ++j)
     for (Index b = 0; b < t.blocks; ++b) {
       const Index anchor = t.anchors[j * t.blocks + b];
-      if (anchor == t.no_anchor) continue;
+      const bool one = anchor < t.no_anchor;
+      if (!one && t.several == nullptr) continue;
       const auto same = [](const float* at) { return Vec3{splat(at[0]), splat(at[1]), splat(at[2])}; };
-      const Vec3 from = same(t.places + 6 * anchor), with = same(t.places + 6 * anchor + 3);
+      Vec3 from{}, with{};  // who hangs from several hangs from those that stand still
+      if (one) from = same(t.places + 6 * anchor), with = same(t.places + 6 * anchor + 3);
       for (Index i = kColumns * b; i < kColumns * (b + 1); i += kLanes) {
         float* const moved = moved_at(sheet, j, i);
+        if (!one)
+          from = load3(t.several + 3 * kColumns * (anchor - t.no_anchor) + (i - kColumns * b), kColumns);
         const Vec reach = load(t.reach + j * sheet.stride + i);
         const Vec3 m = load3(moved, sheet.stride),
                    d = (load3(state_at(sheet, j, i), sheet.stride) - from) + (m - with);
