@@ -46,13 +46,8 @@ class Bands::StopWatch {
 };
 
 Bands::Bands(Cloth& cloth, const Kernels& kernels, ThreadSpeeds& speeds, std::uint32_t count,
-             float* half_velocity, const BodyTouch* bodies, LeapWatch* watch)
-    : cloth_(cloth),
-      kernels_(kernels),
-      speeds_(speeds),
-      half_velocity_(half_velocity),
-      bodies_(bodies),
-      watch_(watch) {
+             float* half_velocity, const BodyTouch* bodies)
+    : cloth_(cloth), kernels_(kernels), speeds_(speeds), half_velocity_(half_velocity), bodies_(bodies) {
   for (std::uint32_t b = 0; b < count; ++b) {
     auto band = std::make_unique<Band>();
     band->carried = make_floats(6 * cloth.sheet().stride);
@@ -147,6 +142,7 @@ void Bands::sweep_rows(Band& band, const ClothRows& rows, bool goes_on, const Ki
                                     .half_velocity = half_velocity,
                                     .bodies = bodies_ ? bodies_->bodies(band.drifted.data()) : Bodies{},
                                     .leap = watch_ ? LeapAsked{watch_->leap2(), &band.leapt} : LeapAsked{},
+                                    .kicks = asks_kicks_ ? band.kicks : nullptr,
                                     .put_off = band.put_off.get()});
 }
 
@@ -195,15 +191,20 @@ void Bands::sweep_band(std::uint32_t own, std::span<const Kick> kicks) {
   }
 }
 
-void Bands::sweep(Crew& crew, std::span<const Kick> kicks) {
+void Bands::sweep(Crew& crew, std::span<const Kick> kicks, LeapWatch* watch, float* kick2) {
+  watch_ = watch;
+  asks_kicks_ = kick2 != nullptr;
   if (divided_by_ != speeds_.version()) divide();
   for (const auto& band : bands_) {
     band->done.store(0, std::memory_order_relaxed);
     band->leapt = 0;
+    std::ranges::fill(band->kicks, 0.0f);
   }
   crew.run(count(), [&](std::uint32_t own) { sweep_band(own, kicks); });
-  for (const auto& band : bands_)
+  for (const auto& band : bands_) {
     if (band->leapt != 0) watch_->tell_leap();
+    if (kick2 != nullptr) *kick2 = std::max(*kick2, *std::ranges::max_element(band->kicks));
+  }
   if (watch_ && !kicks.empty())
     watch_->tell_sweeps(static_cast<std::uint32_t>(kicks.size()), kicks.back().drift);
   learn();

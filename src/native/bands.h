@@ -25,13 +25,14 @@ class Bands {
   /// @param count  at most cloth.rows() / kRowsPerBandMin, at least 1
   /// @param half_velocity  velocity Verlet's, 3·stride a row; null in leapfrog
   /// @param bodies  what the sweep touches; null: none
-  /// @param watch   whom it tells of long ways; null: nobody
   Bands(Cloth& cloth, const Kernels& kernels, ThreadSpeeds& speeds, std::uint32_t count,
-        float* half_velocity = nullptr, const BodyTouch* bodies = nullptr, LeapWatch* watch = nullptr);
+        float* half_velocity = nullptr, const BodyTouch* bodies = nullptr);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(bands_.size()); }
   /// One sweep after the other, band by band in the crew's threads.
-  void sweep(Crew& crew, std::span<const Kick> kicks);
+  /// @param watch  whom they tell of long ways; null: nobody
+  /// @param kick2  raised to the largest square of a kick (KicksAsked); null: nobody asks
+  void sweep(Crew& crew, std::span<const Kick> kicks, LeapWatch* watch = nullptr, float* kick2 = nullptr);
   /// What is drawn, band by band. `wanted` names the outputs; its rows are set here.
   void surface(Crew& crew, const Surface& wanted);
 
@@ -46,6 +47,7 @@ class Bands {
     std::vector<Drifted> drifted;        ///< likewise with bodies
     Floats handed;                       ///< two copies of four rows
     std::uint32_t leapt = 0;             ///< LeapAsked's, in the present sweeps
+    alignas(64) float kicks[kColumns];   ///< KicksAsked's
     std::atomic<std::uint32_t> done{0};  ///< states handed on since the sweeps began
     ThreadWork work;                     ///< since speeds were learnt
   };
@@ -68,7 +70,8 @@ class Bands {
   std::uint64_t divided_by_;  ///< which version of the speeds
   float* half_velocity_;
   const BodyTouch* bodies_;
-  LeapWatch* watch_;
+  LeapWatch* watch_ = nullptr;  ///< of the present sweeps
+  bool asks_kicks_ = false;
   std::vector<std::unique_ptr<Band>> bands_;
 };
 

@@ -55,9 +55,9 @@ Constants effects_of(const Plan& plan) {
 }
 
 Cloth cloth_for(const Model& model, const Plan& plan) {
-  return Cloth(
-      model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns,
-      sweep_touches_bodies(plan) || sweep_watches_links(plan, model) || sweep_watches_motion(plan, model));
+  return Cloth(model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns,
+               sweep_touches_bodies(plan) || sweep_watches_links(plan, model) ||
+                   sweep_watches_motion(plan, model) || sweep_watches_spread(plan, model));
 }
 
 }  // namespace
@@ -85,7 +85,8 @@ Engine::Engine(const Model& model, const Plan& plan, const EngineOptions& option
     : cloth_(cloth_for(model, plan)),
       kernels_(find_kernels(options.vector)),
       choice_(choice_for(cloth_, options)),
-      speeds_(options.speeds) {
+      speeds_(options.speeds),
+      allows_spread_frames_(options.spread_frames) {
   furnish(model, plan);
 }
 
@@ -107,6 +108,9 @@ void Engine::furnish(const Model& model, const Plan& plan) {
   if (model.scene.self_collision)
     self_collision_ =
         std::make_unique<SelfCollision>(cloth_, kernels_, model, sweep_watches_motion(plan, model));
+  spread_.reset();
+  if (allows_spread_frames_ && sweep_watches_spread(plan, model) && SpreadWatch(plan, model).is_possible())
+    spread_ = std::make_unique<SpreadFrames>(cloth_, kernels_, plan, model);
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
@@ -129,8 +133,7 @@ Crew& Engine::crew(std::uint32_t count) {
 Bands& Engine::bands(std::uint32_t count) {
   auto& made = bands_[count];
   if (made == nullptr)
-    made = std::make_unique<Bands>(cloth_, kernels_, speeds_, count, half_velocity_.get(), body_touch_.get(),
-                                   watch());
+    made = std::make_unique<Bands>(cloth_, kernels_, speeds_, count, half_velocity_.get(), body_touch_.get());
   return *made;
 }
 
@@ -148,7 +151,7 @@ void Engine::share_rows(const Act& act) {
   });
 }
 
-void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t count) {
+void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t count, float* kick2) {
   using Clock = std::chrono::steady_clock;
   std::span<const Kick> kicks = table.kicks().subspan(first, count);
   while (!kicks.empty()) {
@@ -159,7 +162,8 @@ void Engine::sweep(const KickTable& table, std::uint32_t first, std::uint32_t co
     if (xpbd_)
       xpbd_->sweep(together, turn.threads, kicks.first(turn.substeps));
     else
-      bands(turn.threads).sweep(together, kicks.first(turn.substeps));
+      bands(turn.threads)
+          .sweep(together, kicks.first(turn.substeps), kick2 == nullptr ? watch() : nullptr, kick2);
     choice_.report(turn, std::chrono::duration<double>(Clock::now() - began).count());
     kicks = kicks.subspan(turn.substeps);
   }
@@ -180,6 +184,31 @@ std::uint32_t Engine::sweep_ahead(const KickTable& table, std::uint32_t first, s
   watch->take_back(count);
   share_rows([&](std::size_t begin, std::size_t end) { cloth_.take_back(begin, end); });
   return 0;
+}
+
+bool Engine::begin_spread_frame(HostBuffers<float>& buffers) {
+  if (!spread_ || !spread_->begin_frame(buffers, crew(choice_.best()), choice_.best())) return false;
+  cloth_.make_keep();
+  share_rows([&](std::size_t begin, std::size_t end) { cloth_.keep(begin, end); });
+  return true;
+}
+
+bool Engine::sweep_spread(const KickTable& table, std::uint32_t first, std::uint32_t count) {
+  for (std::uint32_t at = first, end = first + count; at < end;) {
+    const double drift_s = table.kicks()[at].drift;
+    const std::uint32_t substeps = spread_->substeps(drift_s, end - at);
+    float kick2 = 0.0f;
+    if (substeps == 0) return false;
+    sweep(table, at, substeps, &kick2);
+    if (!spread_->stayed_spread(drift_s, substeps, kick2, crew(choice_.best()), choice_.best())) return false;
+    at += substeps;
+  }
+  return true;
+}
+
+void Engine::take_back_spread_frame(HostBuffers<float>& buffers) {
+  spread_->take_back_frame(buffers);
+  share_rows([&](std::size_t begin, std::size_t end) { cloth_.take_back(begin, end); });
 }
 
 void Engine::load(const HostBuffers<float>& buffers) {

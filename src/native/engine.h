@@ -14,6 +14,7 @@
 #include "native/engine_options.h"
 #include "native/link_watch.h"
 #include "native/self_collision.h"
+#include "native/spread_frames.h"
 #include "native/surface_target.h"
 #include "native/thread_choice.h"
 #include "native/xpbd.h"
@@ -56,10 +57,21 @@ class Engine {
   RowThreads& threads_for_mirrors();
   std::span<const std::uint32_t> broken_links() { return cloth_.broken_links(); }
   /// Sweeps rows [first, first + count) of a frame's schedule.
-  void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count);
+  /// @param kick2  raised to the largest square of a kick [m²/s²], and no LeapWatch is told; null: nobody
+  /// asks
+  void sweep(const KickTable& table, std::uint32_t first, std::uint32_t count, float* kick2 = nullptr);
   /// Sweeps as many of `most` rows from `first` on as need nobody to look in between (LeapWatch). Returns
   /// how many; 0, with nothing changed, where each has to be swept by itself.
   std::uint32_t sweep_ahead(const KickTable& table, std::uint32_t first, std::uint32_t most);
+  /// Before a frame's first substep: whether the cloth is spread out so that self-collision can have nothing
+  /// to do in it (SpreadWatch). Then the frame may be swept by sweep_spread, and its words say what they say
+  /// after lists that are empty.
+  bool begin_spread_frame(HostBuffers<float>& buffers);
+  /// Sweeps rows [first, first + count) of such a frame. Returns whether nothing has come near anything; if
+  /// not, the frame has to be taken back.
+  bool sweep_spread(const KickTable& table, std::uint32_t first, std::uint32_t count);
+  /// Everything to where such a frame began.
+  void take_back_spread_frame(HostBuffers<float>& buffers);
   /// After one substep's sweep: whether the strain limit, or tear, may have anything to do in it.
   bool links_are_near(const Kick& kick);
   void write_surface(const SurfaceTarget& target);
@@ -81,12 +93,14 @@ class Engine {
   const Kernels& kernels_;
   std::unique_ptr<Effects> effects_;
   std::unique_ptr<SelfCollision> self_collision_;
+  std::unique_ptr<SpreadFrames> spread_;   ///< where frames may be swept without looks at self-collision
   std::unique_ptr<LinkWatch> links_;       ///< where the sweep tells of links
   std::unique_ptr<BodyTouch> body_touch_;  ///< where the sweep touches bodies
   Floats half_velocity_;                   ///< velocity Verlet's
   std::unique_ptr<Xpbd> xpbd_;             ///< the sweeps, where XPBD is the solver
   ThreadChoice choice_;
   ThreadSpeeds speeds_;
+  bool allows_spread_frames_;
   std::unique_ptr<Crew> crew_;
   std::optional<CrewRows> crew_rows_;
   std::map<std::uint32_t, std::unique_ptr<Bands>> bands_;  ///< by count, made when first wanted

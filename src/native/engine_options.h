@@ -12,6 +12,9 @@ struct EngineOptions {
   /// How fast each thread is taken to be until its work has been timed, relative to the others; those not
   /// named 1.
   std::vector<double> speeds;
+  /// Whether frames in which the cloth stays spread out may be swept without self-collision's passes
+  /// (SpreadWatch); no bit depends on it.
+  bool spread_frames = true;
 };
 
 }  // namespace weft::native

@@ -114,6 +114,11 @@ struct LeapAsked {
   std::uint32_t* leapt;  ///< set where a particle goes so far; null: nobody asks
 };
 
+/// What the sweep tells of kicks, native/spread_watch.h: raised to the squares [m²/s²] of how much velocities
+/// change in a substep, and of how far ways are from those of the velocities before, per second; kColumns of
+/// them, at a multiple of 64 bytes. Null: nobody asks.
+using KicksAsked = float*;
+
 /// One sweep over rows [first, last): kick and drift, in place.
 struct Sweep {
   Sheet sheet;
@@ -127,6 +132,7 @@ struct Sweep {
   float* half_velocity;
   Bodies bodies;
   LeapAsked leap;
+  KicksAsked kicks;
   float* put_off;  ///< room for vectors that contact moves after their row: put_off_floats of them
 };
 /// Floats that Sweep::put_off has room for: a vector of four columns takes the most.
@@ -275,6 +281,20 @@ struct MotionLook {
   std::uint32_t unsound;        ///< result: some place or speed is no number
 };
 
+/// Rows [first, last) of a cloth of nx × ny, each with the cells below it: whether the cloth is spread out
+/// over a plane, nowhere folded (docs/float-form.md "Spread").
+struct SpreadLook {
+  std::size_t stride, nx, ny, first, last;
+  const float* const* rows;     ///< by row of the cloth
+  float along[3], down[3];      ///< the plane's axes, of length 1 and at right angles
+  float shared_speed[3];        ///< is taken from all velocities [m/s]
+  float spread_min, local_min;  ///< what edges go along the plane at least; and cells along their own [m]
+  /// Results: largest squares of neighbours' relative speed, of speeds [m²/s²], from the origin and of edges
+  /// [m²].
+  float apart2, speed2, place2, longest2;
+  std::uint32_t unsound;  ///< result: somewhere it is not spread, or some number is none
+};
+
 /// Rows [first, last) as vec4s, their last number 0.
 struct PlaceRows {
   std::size_t stride, nx, first, last;
@@ -350,6 +370,7 @@ struct Kernels {
   void (*look_at_links)(LinkLook&);
   std::size_t (*look_at_motion)(LeashLook&);  ///< returns how many particles are out of their room
   void (*measure_motion)(MotionLook&);
+  void (*look_how_spread)(SpreadLook&);
   void (*write_places)(const PlaceRows&);
   std::size_t (*look_at_patches)(PatchLook&);  ///< returns how many cells it left over
   void (*make_near_leaves)(const NearLook&);

@@ -57,6 +57,7 @@ WEFT_INLINE Vec3 triangle(Vec3 p, Vec3 q, Vec3 r) {
 #include "native/near_text.h"
 #include "native/patch_text.h"
 #include "native/solid_text.h"
+#include "native/spread_text.h"
 #include "native/surface_text.h"
 #include "native/tear_text.h"
 #include "native/touch_text.h"
@@ -164,8 +165,18 @@ struct Acting {
   Kick kick;
   Bodies bodies;
   std::uint32_t* leapt;
+  KicksAsked kicks;
   Asked asked;
 };
+
+/// Adds to what the sweep tells of kicks.
+WEFT_INLINE void tell_kick(KicksAsked kicks, Vec3 kick) {
+  store(kicks, larger(dot(kick, kick), load(kicks)));
+}
+/// Likewise of contact, which moves what is fixed, and what is beside the cloth, only in passing.
+WEFT_INLINE void tell_contact(KicksAsked kicks, Mask is_free, Vec3 kick) {
+  store(kicks, larger(select(is_free, dot(kick, kick), Vec{}), load(kicks)));
+}
 
 /// A vector whose reaction is known and that has yet to move.
 struct Waiting {
@@ -212,6 +223,10 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s, P
                    put_off.drifted);
     const Vec3 gone = next.x - own.x;
     if (acting.asked.links && any(~(dot(gone, gone) < splat(acting.asked.leap2)))) *acting.leapt = 1;
+    if (acting.kicks != nullptr) {
+      tell_contact(acting.kicks, w != Vec{}, next.v - before);
+      tell_contact(acting.kicks, w != Vec{}, splat(1.0f / kick.drift) * gone - before);
+    }
   }
   if constexpr ((kEffects & kContact) && kWhen == Contact::put_off)
     if (kick.drift > 0.0f &&
@@ -219,6 +234,8 @@ WEFT_INLINE void move(const Acting& acting, const Waiting& waiting, Strides s, P
       put_off.list[put_off.count++] = waiting;
       return;
     }
+  if constexpr ((kEffects & kContact) && kWhen == Contact::put_off)
+    if (acting.kicks != nullptr) tell_kick(acting.kicks, change);
   if (half != nullptr) {  // who is let go within a frame goes on from the velocity that its pin had
     store_first(half, s, *waiting.has_fixed ? select(w == Vec{}, own.v, next.v) : next.v);
     Vec3 further = splat(kick.predict_gain) * acceleration;
@@ -291,8 +308,8 @@ WEFT_INLINE void sweep_row(const Sweep& sweep, const Acting& acting, Index j, Wa
 WEFT_INLINE Acting acting_of(const Sweep& sweep) {
   const bool bodies = sweep.bodies.solid_count > 0 || sweep.bodies.has_meshes,
              links = sweep.leap.leapt != nullptr;
-  Acting acting{
-      sweep.outside, *sweep.kick, sweep.bodies, sweep.leap.leapt, {bodies, links, sweep.leap.leap2}};
+  Acting acting{sweep.outside,    *sweep.kick, sweep.bodies,
+                sweep.leap.leapt, sweep.kicks, {bodies, links, sweep.leap.leap2}};
   float& leap2 = acting.kick.clear.leap2;
   if (links && sweep.leap.leap2 < leap2) leap2 = sweep.leap.leap2;
   return acting;
@@ -351,6 +368,7 @@ constexpr Kernels kernels_of(const char* name, Variants<kVariant...>) {
           look_at_links,
           look_at_motion,
           measure_motion,
+          look_how_spread,
           write_places,
           look_at_patches,
           make_near_leaves,

@@ -16,8 +16,7 @@ constexpr double kMoreLeast = 0.02, kMoreMost = 0.25, kRounding = 4e-7, kLess = 
 
 }  // namespace
 
-bool sweep_watches_motion(const Plan& plan, const Model& model) {
-  if (!model.scene.self_collision || shares_motion(model)) return false;
+bool sweep_alone_moves(const Plan& plan) {
   // The others look, or change velocities alone.
   static constexpr std::array kMovesNobody{&integrate,       &carry,          &pair_check,   &cell_count,
                                            &cell_scan,       &cell_fill,      &cell_sort,    &patch_near,
@@ -26,6 +25,10 @@ bool sweep_watches_motion(const Plan& plan, const Model& model) {
   return std::ranges::all_of(plan.steps, [](const PlanStep& step) {
     return step.block != Block::substep || std::ranges::count(kMovesNobody, step.pass) > 0;
   });
+}
+
+bool sweep_watches_motion(const Plan& plan, const Model& model) {
+  return model.scene.self_collision && !shares_motion(model) && sweep_alone_moves(plan);
 }
 
 void MotionWatch::tell_sweeps(std::uint32_t substeps, float drift_s) {

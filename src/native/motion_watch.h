@@ -6,6 +6,9 @@
 
 namespace weft::native {
 
+/// Whether in a plan with self-collision nothing but the sweep and contacts move particles.
+bool sweep_alone_moves(const Plan& plan);
+
 /// Whether the sweep can tell: it alone moves particles, and lists count motion itself, not what is left of
 /// it after the motion that all share.
 bool sweep_watches_motion(const Plan& plan, const Model& model);

@@ -47,12 +47,46 @@ class NativeSimulation final : public CpuSimulation<float> {
  private:
   void run_substeps(std::uint32_t first, std::uint32_t count) override {
     if (only_sweeps_) return sweep(Block::substep, first, count);
+    if (first == 0) begin_spread_frame();
+    if (!spread_frame_) return run_looking(first, count);
+    const Clock::time_point began = Clock::now();
+    if (engine_.sweep_spread(table_, first, count)) {
+      buffers_current_ = false;
+      return count_ahead(first, count, ms_since(began));
+    }
+    take_back_spread_frame();
+    run_looking(0, first + count);
+  }
+
+  /// As above, with self-collision, strain limit and tearing asked where they may have something to do.
+  void run_looking(std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t substep = first, end = first + count; substep < end;) {
       const std::uint32_t ahead = sweep_ahead(substep, end - substep);
       if (ahead == 0) run_stages(Block::substep, substep);
       substep += std::max(ahead, 1u);
     }
   }
+
+  void begin_spread_frame() {
+    need_rows();
+    spread_frame_ = engine_.begin_spread_frame(buffers_);
+    stats_at_start_ = frame_.stats;
+  }
+  void take_back_spread_frame() {
+    engine_.take_back_spread_frame(buffers_);
+    buffers_current_ = spread_frame_ = false;
+    frame_.stats = stats_at_start_;
+  }
+
+  /// Somebody else moves pins amid a frame: lists have to be there.
+  void place(std::span<const PlacedParticle> particles) override {
+    if (spread_frame_ && under_way_ && frame_.done > 0) {
+      take_back_spread_frame();
+      run_looking(0, frame_.done);
+    }
+    CpuSimulation::place(particles);
+  }
+
   /// With positions and velocities in the buffers, as watch and keep_sound find them.
   void run_frame_end() override { run_stages(Block::frame_end, frame_.substeps); }
 
@@ -99,14 +133,18 @@ class NativeSimulation final : public CpuSimulation<float> {
     const std::uint32_t count = engine_.sweep_ahead(table_, first, most);
     if (count == 0) return 0;
     buffers_current_ = false;
-    count_swept(Block::substep, count, ms_since(began));
+    count_ahead(first, count, ms_since(began));
+    return count;
+  }
+  /// All steps of these substeps, of which the sweep's took the time.
+  void count_ahead(std::uint32_t first, std::uint32_t count, double ms) {
+    count_swept(Block::substep, count, ms);
     const auto up_to = [](std::uint32_t substeps, std::uint32_t interval) {
       return (substeps + interval - 1) / interval;
     };
     for (const PlanStep& step : plan_.steps)
       if (step.block == Block::substep && !is_swept(step))
         this->count(step, up_to(first + count, step.interval) - up_to(first, step.interval), 0.0);
-    return count;
   }
 
   /// The steps of the block's sweep, in so many substeps.
@@ -177,6 +215,7 @@ class NativeSimulation final : public CpuSimulation<float> {
     look_at_plan();
   }
   void buffers_written() override {
+    spread_frame_ = false;
     engine_.load(buffers_);
     rows_current_ = buffers_current_ = true;
   }
@@ -222,6 +261,8 @@ class NativeSimulation final : public CpuSimulation<float> {
   /// Where the latest state is: in the kernels' rows, in the buffers, or in both.
   bool rows_current_ = true, buffers_current_ = true;
   bool only_sweeps_ = false, sweeps_ahead_ = false, contact_follows_ = false;
+  bool spread_frame_ = false;  ///< the frame under way is swept without looks (Engine::sweep_spread)
+  FrameStats stats_at_start_;  ///< of that frame
 };
 
 }  // namespace
