@@ -29,7 +29,8 @@ SolidRow<float> solid_row_of(const Solid& s) {
 
 bool sweep_touches_bodies(const Plan& plan) {
   return plan.reaching.bodies && std::ranges::any_of(plan.steps, [](const PlanStep& step) {
-           return step.pass == &integrate && step.block == weft::Block::substep;
+           return (step.pass == &integrate || step.pass == &xpbd_finish) &&
+                  step.block == weft::Block::substep;
          });
 }
 

@@ -111,7 +111,7 @@ void Engine::furnish(const Model& model, const Plan& plan) {
   spread_.reset();
   if (allows_spread_frames_ && sweep_watches_spread(plan, model) && SpreadWatch(plan, model).is_possible())
     spread_ = std::make_unique<SpreadFrames>(cloth_, kernels_, plan, model);
-  if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan);
+  if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan, body_touch_.get());
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };
   if (std::ranges::any_of(plan.steps, predicts))
     half_velocity_ = make_floats(cloth_.rows() * 3 * cloth_.sheet().stride);

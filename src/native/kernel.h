@@ -153,6 +153,7 @@ struct XpbdMove {
   const Kick* kick;
   std::size_t first, last;
   std::uint32_t has_air, has_contact;
+  Bodies bodies;
 };
 
 /// Springs or bending triples of one colour that begin in rows [first, last).

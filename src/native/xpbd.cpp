@@ -33,11 +33,13 @@ XpbdKind kind_of(SpringName spring) {
 
 }  // namespace
 
-Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan)
+Xpbd::Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan,
+           const BodyTouch* bodies)
     : cloth_(cloth),
       kernels_(kernels),
       moved_bytes_(cloth.rows() * 4 * cloth.sheet().stride * sizeof(float)),
       moved_(make_floats(moved_bytes_ / sizeof(float))),
+      bodies_(bodies),
       interior_(static_cast<float>(1.0 / model.interior_mass_kg)),
       anchors_move_(!model.moved_pins.empty()),
       turns_(cloth.rows() / kRowsPerBandMin + 1) {
@@ -84,7 +86,7 @@ Xpbd::Colour Xpbd::colour_of(const PlanStep& step, const Model& model) const {
   return colour;
 }
 
-Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) const {
+Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) {
   const std::vector<std::size_t> borders = band_borders(cloth_, std::vector<double>(count, 1.0));
   Band band{.first = borders[own], .last = borders[own + 1], .own = own, .count = count};
   band.goes_on_above = band.first % cloth_.ny() != 0;
@@ -96,6 +98,7 @@ Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) const {
     part.sheet.moved += row * 4 * part.sheet.stride;
     part.first = rows.first;
     part.last = rows.last;
+    if (bodies_ != nullptr) part.bodies = bodies_->bodies(drifted_[own].data());
   });
   return band;
 }
@@ -277,6 +280,9 @@ void Xpbd::sweep_band(Band band, std::span<const Kick> kicks) {
 void Xpbd::sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks) {
   for (Turns& turns : turns_) turns.done.store(0, std::memory_order_relaxed);
   if (!tethers_.empty() && !anchors_move_) find_still_anchors();
+  drifted_.resize(std::max<std::size_t>(drifted_.size(), threads));
+  for (std::vector<Drifted>& list : drifted_)
+    if (bodies_ != nullptr) list.resize(BodyTouch::room(cloth_.nx()));
   crew.run(threads, [&](std::uint32_t own) { sweep_band(band_of(own, threads), kicks); });
 }
 

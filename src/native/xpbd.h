@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "native/body_touch.h"
 #include "native/cloth.h"
 #include "native/crew.h"
 #include "plan/plan.h"
@@ -17,7 +18,9 @@ namespace weft::native {
 /// depends on the division.
 class Xpbd {
  public:
-  Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan);
+  /// @param bodies  what the end of a substep touches; null: none
+  Xpbd(Cloth& cloth, const Kernels& kernels, const Model& model, const Plan& plan,
+       const BodyTouch* bodies = nullptr);
 
   /// One substep a kick, in that many of the crew's threads.
   void sweep(Crew& crew, std::uint32_t threads, std::span<const Kick> kicks);
@@ -46,7 +49,7 @@ class Xpbd {
     std::uint32_t own, count, turn;     ///< which of how many; turns ended
     std::vector<XpbdMove> parts;
   };
-  Band band_of(std::uint32_t own, std::uint32_t count) const;
+  Band band_of(std::uint32_t own, std::uint32_t count);
   void sweep_band(Band band, std::span<const Kick> kicks);
   void pull(const Colour& colour, const Kick& kick, Band& band);
   void end_turn(Band& band);
@@ -72,7 +75,9 @@ class Xpbd {
   std::vector<float> still_places_, several_;    ///< XpbdTethers' of anchors that no pin moves
   std::size_t moved_bytes_;
   Floats moved_;
-  float interior_;  ///< inverse mass of an interior particle [1/kg]
+  const BodyTouch* bodies_;
+  std::vector<std::vector<Drifted>> drifted_;  ///< by thread: Bodies' list
+  float interior_;                             ///< inverse mass of an interior particle [1/kg]
   bool anchors_move_;
   std::vector<Turns> turns_;
 };

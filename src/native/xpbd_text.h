@@ -353,7 +353,9 @@ void xpbd_finish(const XpbdMove& move) {
   const XpbdSheet& sheet = move.sheet;
   const Kick& kick = *move.kick;
   const Vec drift = splat(kick.drift);
+  const bool has_bodies = move.bodies.solid_count > 0 || move.bodies.has_meshes != 0;
   for (Index j = move.first; j < move.last; ++j) {
+    Index listed = 0;
     for (Index i = 0; i < sheet.nx; i += kLanes) {
       float* const state = state_at(sheet, j, i);
       const float* const moved = moved_at(sheet, j, i);
@@ -362,8 +364,10 @@ void xpbd_finish(const XpbdMove& move) {
       Touched next{x + m, {m.x / drift, m.y / drift, m.z / drift}};
       if (move.has_contact) next = touch(move.outside, kick, x, next);
       const Mask fixed = load(moved + 3 * sheet.stride) == Vec{};
+      if (has_bodies) touch_bodies(move.outside, move.bodies, kick, x, ~fixed, state, next, listed);
       store3(state, sheet.stride, select(fixed, x, next.x));
       store3(state + 3 * sheet.stride, sheet.stride, select(fixed, v, next.v));
     }
+    if (listed > 0) move.bodies.touch_rest(move.bodies.self, kick, move.bodies.list, listed);
   }
 }
