@@ -179,6 +179,7 @@ TEST(Usage, NoVulkanDeviceIsExitThreeAndTheCpuStillWorks) {
   const Result without = weft(command, none);
   EXPECT_CODE(without, 3);
   EXPECT_EQ(without.out, "");
+  EXPECT_SAYS(without.err, "--device native");
   Arguments on_cpu = command;
   on_cpu.insert(on_cpu.end(), {"--device", "CPU"});  // names ignore case
   EXPECT_CODE(weft(on_cpu, none), 0);
