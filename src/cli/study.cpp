@@ -96,6 +96,7 @@ void print(const Options& o, const study::Study& study, const study::ReportFiles
 Exit run_study(const Options& asked) {
   const Options o = with_default_device(asked);
   refuse_contradictions(o);
+  refuse_vulkan_options(o, false);
   const std::string& name = only_scene(o);
   const Scene scene = open_scene(for_scene(o), name);
   study::SweepOptions sweep = sweep_options(o, scene);
