@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "native/bands.h"
 #include "native/features.h"
@@ -92,7 +93,7 @@ class Contender {
     if (on_gpu_ != nullptr) row.kernel = weft::describe(on_gpu_->kernel().kernel);
     const bool sweeps = simulation_->plan().solver->name != "xpbd";  // its springs divide otherwise
     if (threads_ > 0 && busy_ == 0 && sweeps) {
-      const double cores = std::min(threads_, std::max(1u, std::thread::hardware_concurrency()));
+      const double cores = std::min(threads_, usable_cores());
       row.divider_share = divider_ns * pairs_a_particle() / (row.ns_best * cores);
     }
     return row;
@@ -156,7 +157,7 @@ BackendBenchReport bench_backends(gpu::Device* device, const Scene& scene,
   const native::Kernels& kernels = native::find_kernels();
   BackendBenchReport report{.scene = scene.title,
                             .solver = scene.solver.name,
-                            .cores = std::max(1u, std::thread::hardware_concurrency()),
+                            .cores = usable_cores(),
                             .repetitions = options.repetitions,
                             .root_and_division_ns = root_and_division_ns(kernels)};
   for (const std::uint32_t resolution : options.resolutions) {
