@@ -8,16 +8,30 @@
 namespace weft::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// A cell is null where its row has no such number.
 Table backend_table(const BackendBenchReport& report) {
-  Table table{{"scene", "resolution", "backend", "threads_most", "cores", "substeps",
-               "ns_per_particle_substep", "ns_median", "frame_ms", "divider_share"},
+  Table table{{"scene", "resolution", "backend", "kernel", "threads_most", "cores", "substeps",
+               "ns_per_particle_substep", "ns_median", "frame_ms", "divider_share", "divider_ns"},
               {}};
   for (const BackendRow& row : report.rows)
     table.rows.push_back({report.scene, fmt::format("{}x{}", row.nx, row.ny), row.backend,
-                          row.threads > 0 ? nlohmann::ordered_json(row.threads) : nlohmann::ordered_json(),
-                          row.beside_busy ? "busy" : "free", row.substeps, row.ns_best, row.ns_median,
-                          row.frame_ms, row.divider_share});
+                          row.kernel.empty() ? Json() : Json(row.kernel),
+                          row.threads > 0 ? Json(row.threads) : Json(), row.beside_busy ? "busy" : "free",
+                          row.substeps, row.ns_best, row.ns_median, row.frame_ms,
+                          row.divider_share ? Json(*row.divider_share) : Json(),
+                          row.divider_share ? Json(report.root_and_division_ns) : Json()});
   return table;
+}
+
+void refuse_all_kernels(const Options& o) {
+  if (o.kernel != "all") return;
+  throw Error(
+      Exit::usage,
+      "bench: --kernel is all and --device is native, which is timed beside one kernel of the Vulkan "
+      "device; name that (`weft bench --device NAME --kernel all` says which is the fastest), or leave "
+      "--kernel out");
 }
 
 /// The device that the comparison is with, or none.
@@ -36,9 +50,11 @@ std::unique_ptr<gpu::Device> device_beside(const Options& o) {
 }  // namespace
 
 Exit run_backend_bench(const Options& o) {
+  refuse_all_kernels(o);
   const std::vector<Scene> wanted = scenes_to_time(o);
   const std::unique_ptr<gpu::Device> device = device_beside(o);
   BackendBenchOptions options;
+  options.kernel = o.kernel;
   if (o.resolution) options.resolutions = {*o.resolution};
   Table all;
   for (const Scene& scene : wanted) {
@@ -47,7 +63,8 @@ Exit run_backend_bench(const Options& o) {
     Table one = backend_table(report);
     if (o.format == Format::human)
       print_result(fmt::format(
-          "{} · {} · {} cores · best and median of {} turns · root and division {:.3g} ns a float\n{}",
+          "{} · native beside {} and the CPU reference · {} cores · best and median of {} turns · root and "
+          "division {:.3g} ns a float\n{}",
           report.scene, device ? device_label(device->info()) : "no Vulkan device", report.cores,
           report.repetitions, report.root_and_division_ns, to_text(one, Format::human)));
     all.columns = one.columns;

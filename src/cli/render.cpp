@@ -138,11 +138,13 @@ Exit run_render(const Options& asked) {
   film.finish();
   report_validation(machine.device.get());
   nlohmann::ordered_json fields = summarize(setup, machine, outcome);
+  const std::string drawn_by = device_label(machine.device->info());
+  fields["drawn_by"] = drawn_by;
   fields["pictures"] = film.pictures();
   fields["out"] = o.out->string();
   print_summary(o, setup.scene(), fields,
-                fmt::format(" · {} {} · {}", film.pictures(), film.pictures() == 1 ? "picture" : "pictures",
-                            o.out->string()));
+                fmt::format("{} · {} {} · {}", machine.on_gpu ? "" : " · drawn by " + drawn_by,
+                            film.pictures(), film.pictures() == 1 ? "picture" : "pictures", o.out->string()));
   return Exit::ok;
 }
 

@@ -144,6 +144,8 @@ std::string Machine::device_label() const {
   return on_gpu != nullptr ? device->info().label() : simulation->device_name();
 }
 
+bool Machine::on_software() const { return on_gpu == nullptr || device->info().software; }
+
 void draw_with(std::unique_ptr<gpu::Device> device, Machine& machine) {
   machine.device = std::move(device);
   if (machine.on_native == nullptr) return;

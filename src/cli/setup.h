@@ -31,6 +31,8 @@ struct Machine {
   DrawnSimulation* drawn = nullptr;     ///< the simulation, when it writes what is drawn (draw_with)
   /// As summaries name it; software devices say so.
   std::string device_label() const;
+  /// Whether no GPU computes.
+  bool on_software() const;
 };
 
 /// `--set` first, then the options that stand for one key each.

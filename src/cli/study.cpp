@@ -88,6 +88,8 @@ void print(const Options& o, const study::Study& study, const study::ReportFiles
     text = fmt::format("{} · {} · first {:g} s\n{}", study.title, study.device, study.time_s, text);
     for (const study::Omission& omission : study.left_out)
       text += fmt::format("left out: {}: {}\n", omission.what, omission.reason);
+    for (const study::Omission& replaced : study.by_reference)
+      text += fmt::format("run by the CPU reference: {}: {}\n", replaced.what, replaced.reason);
     for (const auto& file : files.written) text += fmt::format("wrote {}\n", file.string());
   }
   print_result(text);
@@ -96,6 +98,7 @@ void print(const Options& o, const study::Study& study, const study::ReportFiles
 Exit run_study(const Options& asked) {
   const Options o = with_default_device(asked);
   refuse_contradictions(o);
+  refuse_vulkan_options(o, false);
   const std::string& name = only_scene(o);
   const Scene scene = open_scene(for_scene(o), name);
   study::SweepOptions sweep = sweep_options(o, scene);

@@ -12,10 +12,14 @@ namespace {
 
 std::string human_line(const Scene& scene, const nlohmann::ordered_json& s, const std::string& tail) {
   const std::string name = scene.title.empty() ? scene.source : scene.title;
+  const std::string device = s["device"];
+  // A software device's own label says so already.
+  const bool says_so = device.find("(software)") != std::string::npos;
+  const char* const no_gpu = s["software"].get<bool>() && !says_so ? " · no GPU" : "";
   return fmt::format(
-      "{} · {} · {} · {} · {} · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
+      "{} · {}{} · {} · {} · {} · simulated {:.6g} s · wall {:.3g} s · real-time factor {:.3g} · "
       "max stretch {:.3g} % · hash {}{}\n",
-      name, s["device"].get<std::string>(), s["solver"].get<std::string>(), s["precision"].get<std::string>(),
+      name, device, no_gpu, s["solver"].get<std::string>(), s["precision"].get<std::string>(),
       counted(s["substeps"].get<std::uint32_t>(), "substep"), s["time_s"].get<double>(),
       s["wall_s"].get<double>(), s["real_time_factor"].get<double>(), 100.0 * s["max_stretch"].get<double>(),
       s["hash"].get<std::string>(), tail);
@@ -27,6 +31,7 @@ nlohmann::ordered_json summarize(const Setup& setup, const Machine& machine, con
   const Stretch stretched = stretch(setup.model, outcome.state);
   const double time_s = outcome.state.time_s;
   return {{"device", machine.device_label()},
+          {"software", machine.on_software()},
           {"solver", std::string(setup.solver->name)},
           {"precision", setup.scene().solver.precision},
           {"substeps", machine.simulation->plan().substeps},

@@ -93,6 +93,7 @@ Exit run_validate(const Options& o) {
         Exit::usage,
         "validate: --device is cpu; it must be a Vulkan device or native (the CPU reference is what it is "
         "compared with); see `weft devices`");
+  refuse_vulkan_options(o, false);
   const std::vector<std::string> names = scenes_asked_for(o);
   std::vector<Setup> setups;
   for (const std::string& name : names)

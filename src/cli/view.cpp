@@ -13,6 +13,7 @@ namespace {
 #ifdef WEFT_HAS_VIEWER
 Exit run_view(const Options& o) {
   refuse_second_scene(o);
+  if (o.on_native()) refuse_vulkan_options(o, true);  // cpu is refused with words of its own
   ViewerOptions window;
   if (!o.scenes.empty())
     find_scene(o.scenes.front());  // a slip of the keyboard is said without a display, too

@@ -60,7 +60,8 @@ void check(VkResult result, const char* wish) {
       throw error(
           Exit::no_device,
           "Vulkan could not {}: no Vulkan driver is installed or it does not start ({}); install one "
-          "(Debian: mesa-vulkan-drivers, which also brings a software device), or choose --device cpu",
+          "(Debian: mesa-vulkan-drivers, which also brings a software device), or compute without one (weft "
+          "simulate --device native)",
           wish, result_name(result));
     default:
       throw error(Exit::internal, "Vulkan could not {}: {} ({})", wish, result_name(result),

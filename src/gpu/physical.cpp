@@ -166,7 +166,7 @@ Candidate choose_device(const std::vector<Candidate>& candidates, const std::str
   if (candidates.empty()) {
     throw error(Exit::no_device,
                 "There is no Vulkan device; install a driver (Debian: mesa-vulkan-drivers, which also brings "
-                "a software device), or choose --device cpu");
+                "a software device), or compute without one (weft simulate --device native)");
   }
   const Candidate* refused = nullptr;
   for (const Candidate& c : candidates) {
@@ -176,7 +176,8 @@ Candidate choose_device(const std::vector<Candidate>& candidates, const std::str
   }
   if (choice.empty()) {
     throw error(Exit::no_device,
-                "No Vulkan device can run Weft; update its driver, or choose --device cpu:{}",
+                "No Vulkan device can run Weft; update its driver, or compute without one (weft simulate "
+                "--device native):{}",
                 table(candidates));
   }
   if (refused != nullptr)

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/cores.h"
+
 namespace weft {
 namespace {
 
@@ -83,7 +85,7 @@ class Pool final : public RowThreads {
 };
 
 RowThreads& pool() {
-  static Pool shared(std::max(1u, std::thread::hardware_concurrency()) - 1);
+  static Pool shared(usable_cores() - 1);
   return shared;
 }
 

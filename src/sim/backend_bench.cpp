@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "native/bands.h"
 #include "native/features.h"
@@ -89,9 +90,10 @@ class Contender {
     row.ns_best = sorted.front() * to_ns;
     row.ns_median = sorted[sorted.size() / 2] * to_ns;
     row.frame_ms = sorted.front() * 1e3 * row.substeps;
+    if (on_gpu_ != nullptr) row.kernel = weft::describe(on_gpu_->kernel().kernel);
     const bool sweeps = simulation_->plan().solver->name != "xpbd";  // its springs divide otherwise
     if (threads_ > 0 && busy_ == 0 && sweeps) {
-      const double cores = std::min(threads_, std::max(1u, std::thread::hardware_concurrency()));
+      const double cores = std::min(threads_, usable_cores());
       row.divider_share = divider_ns * pairs_a_particle() / (row.ns_best * cores);
     }
     return row;
@@ -125,7 +127,8 @@ class Contender {
 };
 
 /// Each on a cloth of its own.
-std::vector<Contender> contenders(gpu::Device* device, const Model& model, std::uint32_t cores) {
+std::vector<Contender> contenders(gpu::Device* device, const Model& model, std::uint32_t cores,
+                                  const std::string& kernel) {
   const Solver& solver = find_solver(model.scene.solver.name);
   const std::string& precision = model.scene.solver.precision;
   const auto native_in = [&](std::uint32_t threads) {
@@ -139,7 +142,7 @@ std::vector<Contender> contenders(gpu::Device* device, const Model& model, std::
   all.emplace_back(native_in(0), most, nullptr, cores);
   all.emplace_back(native_in(1), 1, nullptr, cores);
   if (device != nullptr) {
-    auto on_gpu = GpuSimulation::create(*device, model, solver, {.kernel = "auto"});
+    auto on_gpu = GpuSimulation::create(*device, model, solver, {.kernel = kernel.empty() ? "auto" : kernel});
     GpuSimulation* const watched = on_gpu.get();
     all.emplace_back(std::move(on_gpu), 0, watched);
   }
@@ -154,7 +157,7 @@ BackendBenchReport bench_backends(gpu::Device* device, const Scene& scene,
   const native::Kernels& kernels = native::find_kernels();
   BackendBenchReport report{.scene = scene.title,
                             .solver = scene.solver.name,
-                            .cores = std::max(1u, std::thread::hardware_concurrency()),
+                            .cores = usable_cores(),
                             .repetitions = options.repetitions,
                             .root_and_division_ns = root_and_division_ns(kernels)};
   for (const std::uint32_t resolution : options.resolutions) {
@@ -166,7 +169,7 @@ BackendBenchReport bench_backends(gpu::Device* device, const Scene& scene,
     if (!lacks.empty())
       throw error(Exit::usage, "{}: {}; bench --device native needs a scene that native runs", scene.source,
                   lacks);
-    std::vector<Contender> all = contenders(device, model, report.cores);
+    std::vector<Contender> all = contenders(device, model, report.cores, options.kernel);
     for (std::uint32_t repetition = 0; repetition < options.repetitions; ++repetition) {
       report.root_and_division_ns = std::min(report.root_and_division_ns, root_and_division_ns(kernels));
       for (Contender& contender : all) contender.turn(options.repetition_s);

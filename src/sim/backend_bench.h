@@ -1,6 +1,7 @@
 // The same substeps on every backend by turns: vector kernels, Vulkan device, reference, in wall time.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,19 +14,22 @@ struct BackendBenchOptions {
   std::vector<std::uint32_t> resolutions{64, 128, 256};
   std::uint32_t repetitions = 7;
   double repetition_s = 0.1;  ///< about how long one turn of one backend takes; two substeps at least
+  std::string kernel;  ///< of the Vulkan device; empty: auto, the fastest by an earlier or a short trial
 };
 
 /// One backend on one size.
 struct BackendRow {
   std::string backend;                        ///< "native (AVX-512, 4 threads)"
+  std::string kernel;                         ///< that the Vulkan device ran; empty elsewhere
   bool beside_busy = false;                   ///< while every core also ran a neighbour that computes
   std::uint32_t nx = 0, ny = 0, threads = 0;  ///< threads: the most; 0 where the backend does not say
   std::uint32_t substeps = 0;                 ///< a frame, automatic
   double ns_best = 0, ns_median = 0;          ///< wall time a particle·substep
   double frame_ms = 0;                        ///< of a whole frame at ns_best
-  /// What the pairs' divisions and square roots alone would take on as many cores, measured in the same run,
-  /// over what the sweep takes; 0 where the backend is not native.
-  double divider_share = 0;
+  /// What the pairs' divisions and square roots alone would take on as many cores as the threads may have,
+  /// measured in the same run, over what the sweep takes. Absent where the backend is not native, where cores
+  /// are busy and in XPBD, whose springs divide otherwise.
+  std::optional<double> divider_share;
 };
 
 struct BackendBenchReport {

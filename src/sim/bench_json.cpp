@@ -4,8 +4,8 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "core/cores.h"
 #include "sim/bench.h"
 
 namespace weft {
@@ -37,7 +37,7 @@ std::string to_benchmark_json(const BenchReport& report) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   json["context"] = {{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))},
                      {"executable", "weft bench"},
-                     {"num_cpus", std::thread::hardware_concurrency()},
+                     {"num_cpus", usable_cores()},
                      {"device", report.device},
                      {"driver", report.driver},
                      {"scene", report.scene},

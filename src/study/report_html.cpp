@@ -82,6 +82,14 @@ std::string reference_text(const Cloth& cloth, double time_s) {
   return text + "</p>\n";
 }
 
+std::string list_of(const char* title, const std::vector<Omission>& omissions) {
+  if (omissions.empty()) return "";
+  std::string text = fmt::format("<h2>{}</h2>\n<ul>\n", title);
+  for (const Omission& omission : omissions)
+    text += fmt::format("<li>{}: {}</li>\n", escaped(omission.what), escaped(omission.reason));
+  return text + "</ul>\n";
+}
+
 }  // namespace
 
 std::string report_html(const Study& study) {
@@ -105,12 +113,8 @@ std::string report_html(const Study& study) {
     page += work_precision_svg(study, cloth.nx, CostAxis::spring_evaluations);
     page += "<p>Spring evaluations do not depend on the machine.</p>\n" + table(study, cloth.nx);
   }
-  if (!study.left_out.empty()) {
-    page += "<h2>Left out</h2>\n<ul>\n";
-    for (const Omission& omission : study.left_out)
-      page += fmt::format("<li>{}: {}</li>\n", escaped(omission.what), escaped(omission.reason));
-    page += "</ul>\n";
-  }
+  page += list_of("Left out", study.left_out);
+  page += list_of("Run by the CPU reference", study.by_reference);
   return page + "</body></html>\n";
 }
 

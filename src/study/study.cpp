@@ -68,14 +68,16 @@ std::vector<Point> Study::promises_at(std::uint32_t nx) const {
 }
 
 std::string to_json(const Study& study) {
-  Json json = {{"format", kFormatVersion},   {"title", study.title},     {"scene", study.source},
-               {"device", study.device},     {"date", study.date},       {"command", study.command},
-               {"time_s", study.time_s},     {"frame_s", study.frame_s}, {"quick", study.quick},
-               {"complete", study.complete}, {"cloths", Json::array()},  {"left_out", Json::array()},
-               {"points", Json::array()}};
+  Json json = {{"format", kFormatVersion},      {"title", study.title},     {"scene", study.source},
+               {"device", study.device},        {"date", study.date},       {"command", study.command},
+               {"time_s", study.time_s},        {"frame_s", study.frame_s}, {"quick", study.quick},
+               {"complete", study.complete},    {"cloths", Json::array()},  {"left_out", Json::array()},
+               {"by_reference", Json::array()}, {"points", Json::array()}};
   for (const Cloth& cloth : study.cloths) json["cloths"].push_back(to_json(cloth));
   for (const Omission& omission : study.left_out)
     json["left_out"].push_back({{"what", omission.what}, {"reason", omission.reason}});
+  for (const Omission& replaced : study.by_reference)
+    json["by_reference"].push_back({{"what", replaced.what}, {"reason", replaced.reason}});
   for (const Point& point : study.points) json["points"].push_back(to_json(point));
   return json.dump(2) + '\n';
 }
@@ -96,6 +98,9 @@ Study study_from_json(const std::string& text) {
   for (const Json& cloth : json.at("cloths")) study.cloths.push_back(cloth_from_json(cloth));
   for (const Json& omission : json.at("left_out"))
     study.left_out.push_back({omission.at("what"), omission.at("reason")});
+  if (json.contains("by_reference"))  // studies that were kept before there was native lack it
+    for (const Json& replaced : json.at("by_reference"))
+      study.by_reference.push_back({replaced.at("what"), replaced.at("reason")});
   for (const Json& point : json.at("points")) study.points.push_back(point_from_json(point));
   return study;
 }

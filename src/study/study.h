@@ -24,7 +24,7 @@ struct Cloth {
   std::string equilibrium;  ///< "found", or why the scene has none
 };
 
-/// What a study does not hold, and why.
+/// What a study does not hold, or not from its device, and why.
 struct Omission {
   std::string what, reason;
 };
@@ -36,6 +36,7 @@ struct Study {
   bool complete = false;  ///< neither solvers nor precisions were left out by choice
   std::vector<Cloth> cloths;
   std::vector<Omission> left_out;
+  std::vector<Omission> by_reference;  ///< what the device left to the CPU reference, and why
   std::vector<Point> points;
 
   const Cloth* cloth(std::uint32_t nx) const;

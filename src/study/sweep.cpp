@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "plan/plan.h"
+#include "sim/native_simulation.h"
 #include "study/equilibrium.h"
 #include "study/identity.h"
 #include "study/study.h"
@@ -178,6 +179,7 @@ class Sweep {
           study_.left_out.push_back({fmt::format("{} {}", solver->name, precision), reason});
           continue;
         }
+        if (bench_.native) note_reference(*solver, std::string(precision));
         for (std::size_t part = 0; part < parts_.size(); ++part) {
           std::size_t round = 0;
           for (const std::uint32_t n : substep_counts(parts_[part].model, *solver, options_.quick))
@@ -188,6 +190,18 @@ class Sweep {
     std::vector<Task> tasks;
     for (const auto& [round, list] : rounds) tasks.insert(tasks.end(), list.begin(), list.end());
     return tasks;
+  }
+
+  /// What native lacks runs on the reference: another machine's times, which the report must say.
+  void note_reference(const Solver& solver, const std::string& precision) {
+    const std::string reason = native_lacks(parts_.front().model, solver, precision);
+    if (reason.empty()) return;
+    const std::string what = fmt::format("{} {}", solver.name, precision);
+    auto alike = std::ranges::find(study_.by_reference, reason, &Omission::reason);
+    if (alike == study_.by_reference.end())
+      study_.by_reference.push_back({what, reason});
+    else
+      alike->what += ", " + what;
   }
 
   std::uint64_t dispatches(const Part& part, const Setting& setting) const {

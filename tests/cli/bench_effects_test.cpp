@@ -1,4 +1,4 @@
-// `weft bench --effects` on native: the table a machine without a GPU gives, and what it says of itself.
+// `weft bench` on native: the tables a machine without a GPU gives, and what they say of themselves.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -56,6 +56,39 @@ TEST(BenchEffects, RefusesWhatNativeDoesNotRunAndSaysHowToGoOn) {
   const Result kernel = weft(bench_of({"--device", "native", "--kernel", "texel"}));
   EXPECT_CODE(kernel, 2);
   EXPECT_SAYS(kernel.err, "--kernel and --device native are both given");
+}
+
+// docs/cli.md "weft bench": native, the Vulkan device and the reference by turns in one run. No number stands
+// where none was measured, and the Vulkan device's row says which kernel it is.
+TEST(BenchBackends, SaysWhatEachRowIsAndNothingThatWasNotMeasured) {
+  const Result result = weft({"bench", "1", "--resolution", "16", "--device", "native", "--kernel", "texel",
+                              "--format", "json", "-q"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  bool one_thread = false, reference = false;
+  for (const auto& row : nlohmann::json::parse(result.out)) {
+    const std::string backend = row["backend"];
+    const bool native = backend.rfind("native (", 0) == 0, free = row["cores"] == "free";
+    EXPECT_GT(row["ns_per_particle_substep"].get<double>(), 0.0) << backend;
+    EXPECT_GE(row["ns_median"], row["ns_per_particle_substep"]) << backend;
+    EXPECT_GT(row["frame_ms"].get<double>(), 0.0) << backend;
+    EXPECT_EQ(row["divider_share"].is_number(), native && free) << backend;
+    EXPECT_EQ(row["divider_ns"].is_number(), native && free) << backend;
+    const bool on_host = native || backend == "CPU reference (f32)";
+    EXPECT_EQ(row["kernel"].is_string(), !on_host) << backend;
+    if (!on_host) {
+      EXPECT_SAYS(row["kernel"].get<std::string>(), "texel");
+    }
+    one_thread = one_thread || (native && free && row["threads_most"] == 1);
+    reference = reference || backend == "CPU reference (f32)";
+  }
+  EXPECT_TRUE(one_thread);
+  EXPECT_TRUE(reference);
+}
+
+TEST(BenchBackends, TakesOneKernelOfTheVulkanDevice) {
+  const Result all = weft({"bench", "1", "--resolution", "16", "--device", "native", "--kernel", "all"});
+  EXPECT_CODE(all, 2);
+  EXPECT_SAYS(all.err, "--kernel is all and --device is native");
 }
 
 }  // namespace

@@ -142,6 +142,8 @@ TEST(DefaultDevice, IsNativeWhereThereIsNoGpu) {
   EXPECT_CODE(result, 0);
   const Json summary = Json::parse(result.out);
   EXPECT_EQ(summary["device"].get<std::string>().rfind("native (", 0), 0u) << summary["device"];
+  EXPECT_EQ(summary["software"], true);
+  EXPECT_SAYS(weft(by_default("simulate", {"--time", "0.1", "-q"})).out, " · no GPU · ");
   EXPECT_SAYS(result.err, "no GPU is used");
   const Json shaders = Json::parse(weft(on_device("simulate", {"--time", "0.1", "--format", "json"})).out);
   EXPECT_SAYS(shaders["device"].get<std::string>(), "(software)");
@@ -200,6 +202,9 @@ TEST(DefaultDevice, NativeIsDrawnToTheSamePixels) {
   };
   const std::string shaders = picture("shaders.png", {}, {});
   EXPECT_EQ(picture("native.png", {"--device", "native"}, {}), shaders);
+  const std::string drawer = Json::parse(weft({"devices", "--format", "json"}).out)[0]["name"];
+  const Arguments still{"--time", "0", "--size", "160x90", "--out", scratch.path("still.png"), "-q"};
+  EXPECT_SAYS(weft(by_default("render", still)).out, " · drawn by " + drawer);
   EXPECT_EQ(picture("staged.png", {"--device", "native"}, {{"WEFT_FORCE_STAGING", "1"}}), shaders);
 }
 

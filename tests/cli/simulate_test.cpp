@@ -32,8 +32,8 @@ TEST(Simulate, JsonHasExactlyTheDocumentedKeys) {
   const OrderedJson object = summary(small({"--time", "0.1"}));
   std::vector<std::string> keys;
   for (const auto& [key, value] : object.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"device", "solver", "precision", "substeps", "time_s", "wall_s",
-                                            "spring_evaluations", "real_time_factor", "max_stretch",
+  EXPECT_EQ(keys, (std::vector<std::string>{"device", "software", "solver", "precision", "substeps", "time_s",
+                                            "wall_s", "spring_evaluations", "real_time_factor", "max_stretch",
                                             "p99_stretch", "energy_j", "hash"}));
   EXPECT_NEAR(object["time_s"].get<double>(), 0.1, 1e-12);
   EXPECT_GT(object["spring_evaluations"].get<std::uint64_t>(), 0u);
@@ -45,8 +45,8 @@ TEST(Simulate, CsvIsAHeaderAndOneRow) {
   EXPECT_CODE(result, 0);
   const std::vector<std::string> lines = lines_of(result.out);
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].rfind("device,solver,precision,substeps,time_s,", 0), 0u);
-  EXPECT_EQ(std::count(lines[1].begin(), lines[1].end(), ','), 11);
+  EXPECT_EQ(lines[0].rfind("device,software,solver,precision,substeps,time_s,", 0), 0u);
+  EXPECT_EQ(std::count(lines[1].begin(), lines[1].end(), ','), 12);
 }
 
 TEST(Simulate, TheLineNamesTheDeviceAndStderrStaysEmpty) {
@@ -54,8 +54,8 @@ TEST(Simulate, TheLineNamesTheDeviceAndStderrStaysEmpty) {
   EXPECT_CODE(result, 0);
   EXPECT_EQ(lines_of(result.out).size(), 1u);
   EXPECT_EQ(result.err, "");
-  for (const char* part :
-       {"CPU", "leapfrog", "f32", "substeps", "simulated 0.1 s", "wall", "real-time factor", "max stretch"})
+  for (const char* part : {"CPU", " · no GPU · ", "leapfrog", "f32", "substeps", "simulated 0.1 s", "wall",
+                           "real-time factor", "max stretch"})
     EXPECT_SAYS(result.out, part);
 }
 

@@ -84,6 +84,12 @@ TEST(Usage, OptionsOfVulkanAreRefusedWhereItDoesNotCompute) {
     }
   expect_refused({"render", "1", "--time", "0", "--device", "cpu", "--kernel", "texel", "--out", "x.png"},
                  {"--kernel", "--device cpu"});
+  expect_refused({"validate", "1", "--device", "native", "--validation"},
+                 {"--validation", "--device native"});
+  expect_refused({"study", "1", "--device", "native", "--kernel", "texel", "--out", "x"},
+                 {"--kernel", "--device native"});
+  const Environment no_display{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  EXPECT_CODE(weft({"view", "1", "--device", "native", "--kernel", "texel"}, no_display), 2);
 }
 
 TEST(Usage, HelpIsWhatAHelpOptionGives) {
@@ -179,6 +185,7 @@ TEST(Usage, NoVulkanDeviceIsExitThreeAndTheCpuStillWorks) {
   const Result without = weft(command, none);
   EXPECT_CODE(without, 3);
   EXPECT_EQ(without.out, "");
+  EXPECT_SAYS(without.err, "--device native");
   Arguments on_cpu = command;
   on_cpu.insert(on_cpu.end(), {"--device", "CPU"});  // names ignore case
   EXPECT_CODE(weft(on_cpu, none), 0);

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "study/kept_studies.h"
+#include "study/report.h"
 #include "study_cloths.h"
 
 namespace weft::study {
@@ -65,6 +66,21 @@ TEST(Sweep, MeasuresErrorTimeAndTheRest) {
             fine.error_m);
   EXPECT_TRUE(coarse.equilibrium_distance_m);
   EXPECT_FALSE(coarse.energy_drift);  // not in quick form
+}
+
+// Times of another machine's making stand in the same diagram: the study says which, and why.
+TEST(Sweep, SaysWhatNativeLeavesToTheReference) {
+  const ScratchCache cache;
+  Counter counter;
+  const Study study = run_study(Bench::without_device(true), small_scene(), quick_options(), counter.watch());
+  ASSERT_EQ(study.by_reference.size(), 2u);  // one entry a reason
+  EXPECT_EQ(study.by_reference[0].what, "rk4 f32");
+  EXPECT_EQ(study.by_reference[1].what, "leapfrog f64, rk4 f64");
+  const Study read = study_from_json(to_json(study));
+  ASSERT_EQ(read.by_reference.size(), 2u);
+  EXPECT_EQ(read.by_reference[1].what, study.by_reference[1].what);
+  EXPECT_EQ(read.by_reference[1].reason, study.by_reference[1].reason);
+  EXPECT_NE(report_html(study).find("leapfrog f64, rk4 f64: native computes in f32 only"), std::string::npos);
 }
 
 TEST(Sweep, KeepsWhatDiverged) {
