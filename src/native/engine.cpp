@@ -9,6 +9,7 @@
 #include <cstring>
 #include <thread>
 
+#include "core/cores.h"
 #include "core/error.h"
 #include "native/features.h"
 #include "passes/integrate.h"
@@ -21,7 +22,7 @@ constexpr std::uint32_t kThreadsMax = 1024;
 
 /// The most threads that a trial may find best: more than there are cores would only wait for each other.
 std::uint32_t threads_most() {
-  const std::uint32_t cores = std::clamp(std::thread::hardware_concurrency(), 1u, kThreadsMax);
+  const std::uint32_t cores = std::min(usable_cores(), kThreadsMax);
   const char* text = std::getenv("WEFT_THREADS");
   if (text == nullptr) return cores;
   std::uint32_t count = 0;
