@@ -85,6 +85,7 @@ bool SelfCollision::run(const Pass& pass, const MirrorContext& context, HostBuff
   if (&pass == &surface_gather) {  // and pair_gather, which stands before it
     near_lists_.gather(buffers, crew, threads);
     contacts_.forget_lists();
+    if (buffers.words_of(BufferId::collision_state)[shared::kPairsListed] != 0) forget_motion();
   }
   return false;
 }
@@ -104,7 +105,6 @@ bool SelfCollision::check_motion(const MirrorContext& context, HostBuffers<float
                                  std::uint32_t threads) {
   bool stale = begin_check(context, view_, buffers), moved = false;
   const auto& state = buffers.words_of(BufferId::collision_state);
-  if (watch_ && state[shared::kPairsListed] != 0) watch_->forget();
   const bool looks = state[shared::kListsArmed] != 0 && !(watch_ && watch_->all_are_in());
   if (looks && !measure_motion(buffers, crew, threads, stale))
     moved = look_at_motion(buffers, crew, threads, stale);

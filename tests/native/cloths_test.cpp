@@ -142,5 +142,44 @@ TEST(NativeCloths, EqualTheReferenceWhereTheyTouch) {
       "leapfrog", 1, {4});
 }
 
+/// Two that come together, evenly and no faster than lists foresee: from the first list on contacts are due
+/// at every look, though nobody leaves the lists' room for more substeps than that. For the pin of the third
+/// one no motion counts as shared.
+TEST(NativeCloths, LookAtTheirFirstContactsInTime) {
+  const Model model = build_model(parse_scene(R"(
+[cloth]
+resolution = 21
+orientation = "horizontal"
+[[cloths]]
+center = [0, 0.03, 0]
+[[cloths]]
+center = [5, 0, 0]
+[[pins]]
+at = [0, 0]
+cloth = 2
+[self_collision]
+thickness = 0.0125
+[solver]
+substeps = 80
+)",
+                                              "meeting.toml")
+                                      .scene);
+  const Solver& solver = find_solver("leapfrog");
+  State begun = start_state(model);
+  const std::size_t each = begun.velocity.size() / 3;
+  for (std::size_t p = 0; p < 2 * each; ++p) begun.velocity[p].y = p < each ? 0.3 : -0.3;
+  const auto right = make_host_reference(model, solver, "f32"),
+             got = make_native_simulation(model, solver, "f32", {.threads = 2});
+  right->write(begun);
+  got->write(begun);
+  const Ended expected = ended(*right, 3), end = ended(*got, 3);
+  EXPECT_LT(expected.state.velocity[each / 2].y, 0.2) << "they touch";
+  for (std::size_t p = 0; p < end.state.position.size(); ++p) {
+    ASSERT_EQ(end.state.position[p], expected.state.position[p]) << "position of particle " << p;
+    ASSERT_EQ(end.state.velocity[p], expected.state.velocity[p]) << "velocity of particle " << p;
+  }
+  EXPECT_EQ(got->self_collision()->lists_built, right->self_collision()->lists_built);
+}
+
 }  // namespace
 }  // namespace weft
