@@ -47,7 +47,12 @@ class Bands::StopWatch {
 
 Bands::Bands(Cloth& cloth, const Kernels& kernels, ThreadSpeeds& speeds, std::uint32_t count,
              float* half_velocity, const BodyTouch* bodies)
-    : cloth_(cloth), kernels_(kernels), speeds_(speeds), half_velocity_(half_velocity), bodies_(bodies) {
+    : cloth_(cloth),
+      kernels_(kernels),
+      speeds_(speeds),
+      half_velocity_(half_velocity),
+      bodies_(bodies),
+      patience_(patience_of(count)) {
   for (std::uint32_t b = 0; b < count; ++b) {
     auto band = std::make_unique<Band>();
     band->carried = make_floats(6 * cloth.sheet().stride);
@@ -114,7 +119,7 @@ void Bands::fetch(const float* rows) const {
 void Bands::take_above(std::uint32_t own, std::uint32_t substep) {
   Band& band = *bands_[own];
   if (!band.goes_on_above) return;
-  wait_for(bands_[own - 1]->done, substep + 1);
+  wait_for(bands_[own - 1]->done, substep + 1, patience_.for_neighbour);
   for (std::size_t r = 0; r < 2; ++r)
     band.rows[band.first - 2 + r] = handed_row(*bands_[own - 1], substep % 2, 2 + r);
   fetch(band.rows[band.first - 2]);
@@ -122,7 +127,7 @@ void Bands::take_above(std::uint32_t own, std::uint32_t substep) {
 
 void Bands::take_below(std::uint32_t own, std::uint32_t substep) {
   Band& band = *bands_[own];
-  wait_for(bands_[own + 1]->done, substep + 1);
+  wait_for(bands_[own + 1]->done, substep + 1, patience_.for_neighbour);
   for (std::size_t r = 0; r < 2; ++r) band.rows[band.last + r] = handed_row(*bands_[own + 1], substep % 2, r);
   fetch(band.rows[band.last]);
 }

@@ -70,6 +70,7 @@ class Bands {
   std::uint64_t divided_by_;  ///< which version of the speeds
   float* half_velocity_;
   const BodyTouch* bodies_;
+  Patience patience_;
   LeapWatch* watch_ = nullptr;  ///< of the present sweeps
   bool asks_kicks_ = false;
   std::vector<std::unique_ptr<Band>> bands_;

@@ -8,11 +8,17 @@
 
 namespace weft::native {
 
-/// Returns when the flag is at least so much: looks 200 times, with the processor's pause between, then
-/// sleeps until it is raised. With fewer cores than threads, longer spinning keeps from running whom it waits
-/// for; and beside busy neighbours who sleeps is woken at once, where who only gives its core away waits for
-/// its turn.
-inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least);
+/// How often to look at a flag before sleeping, with the processor's pause between: 10 µs for a neighbour,
+/// who is some rows behind, and 50 for the next round of a crew, which follows soon within a frame. With
+/// fewer cores than threads, spinning keeps from running whom it waits for: then 200 times at most.
+struct Patience {
+  int for_neighbour, for_round;
+};
+Patience patience_of(std::uint32_t threads);
+
+/// Returns when the flag is at least so much: looks so often, then sleeps until it is raised. Beside busy
+/// neighbours who sleeps is woken at once, where who only gives its core away waits for its turn.
+inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least, int looks);
 
 /// Raises a flag that others wait for.
 inline void raise(std::atomic<std::uint32_t>& flag, std::uint32_t to) {
@@ -41,6 +47,7 @@ class Crew {
   void help(std::uint32_t own);
   void call(std::uint32_t own);
 
+  Patience patience_;
   const std::function<void(std::uint32_t)>* task_ = nullptr;
   bool stopping_ = false;
   std::vector<Call> calls_;                             ///< by task; the first is the caller's and unused
@@ -54,9 +61,8 @@ inline void pause_briefly() {
 #endif
 }
 
-inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least) {
-  constexpr int kPausesMax = 200;
-  for (int pauses = 0; pauses < kPausesMax; ++pauses) {
+inline void wait_for(const std::atomic<std::uint32_t>& flag, std::uint32_t least, int looks) {
+  for (int look = 0; look < looks; ++look) {
     if (flag.load(std::memory_order_acquire) >= least) return;
     pause_briefly();
   }

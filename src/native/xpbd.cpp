@@ -106,8 +106,9 @@ Xpbd::Band Xpbd::band_of(std::uint32_t own, std::uint32_t count) {
 /// Marks the turn as done and waits until both neighbours that share a cloth with this band have done it too.
 void Xpbd::end_turn(Band& band) {
   raise(turns_[band.own].done, ++band.turn);
-  if (band.goes_on_above) wait_for(turns_[band.own - 1].done, band.turn);
-  if (band.goes_on_below) wait_for(turns_[band.own + 1].done, band.turn);
+  const int looks = patience_of(band.count).for_neighbour;
+  if (band.goes_on_above) wait_for(turns_[band.own - 1].done, band.turn, looks);
+  if (band.goes_on_below) wait_for(turns_[band.own + 1].done, band.turn, looks);
 }
 
 /// How far moving pins take what they hold of the band's rows.
