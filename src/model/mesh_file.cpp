@@ -40,8 +40,8 @@ TriangleMesh parse_obj(const std::string& text, const std::string& name, double 
       for (int corner = 0; corner < 3; ++corner) {
         const int index = shape.mesh.indices[k + std::size_t(corner)].vertex_index;
         if (index < 0 || std::size_t(index) >= mesh.vertices.size())
-          throw error(Exit::usage, "{}: a face names vertex {}; it must be 1 to {}", name, index + 1,
-                      mesh.vertices.size());
+          throw error(Exit::usage, "{}: a face names vertex {}; it must be 1 to {} (export the mesh again)",
+                      name, index + 1, mesh.vertices.size());
         triangle[corner] = std::uint32_t(index);
       }
       mesh.triangles.push_back(triangle);
@@ -68,8 +68,9 @@ void weld(TriangleMesh& mesh) {
 
 void check_size(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.size() < 4)
-    throw error(Exit::usage, "{}: it has {} triangles; it must have at least 4 to enclose anything", name,
-                mesh.triangles.size());
+    throw error(Exit::usage,
+                "{}: it has {} triangles; it must have at least 4 to enclose anything (export a closed mesh)",
+                name, mesh.triangles.size());
   if (mesh.triangles.size() > kMeshTrianglesMax)
     throw error(Exit::usage, "{}: it has {} triangles; it must have at most {} (simplify it)", name,
                 mesh.triangles.size(), kMeshTrianglesMax);

@@ -89,6 +89,7 @@ TEST_F(MeshTest, BadMeshesAreRefusedWithTheReason) {
           .find("disagree"),
       std::string::npos);
   EXPECT_NE(refusal("nothing at all\n", Exit::usage).find("triangles"), std::string::npos);
+  EXPECT_NE(refusal("nothing at all\n", Exit::usage).find("(export"), std::string::npos);
   EXPECT_NE(refusal("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", Exit::usage)
                 .find("meshes.scale"),
             std::string::npos);
