@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/error.h"
@@ -22,7 +25,33 @@ namespace {
 constexpr std::size_t kMeshBytesMax = std::size_t(64) << 20;
 constexpr double kMeshSmallest_m = 1e-3;
 
+bool is_finite_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto [stopped, failure] = std::from_chars(word.data(), end, value);
+  return failure == std::errc() && stopped == end && std::isfinite(value);
+}
+
+/// The reader takes what it can of a number, and 0 for what is none.
+void check_vertices(const std::string& text, const std::string& name) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != "v") continue;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(words >> word) || !is_finite_number(word))
+        throw error(
+            Exit::usage,
+            "{}:{}: the vertex is {}; a v line must have three finite numbers (export the mesh again)", name,
+            number, in_quotes(line, 80));
+  }
+}
+
 TriangleMesh parse_obj(const std::string& text, const std::string& name, double scale) {
+  check_vertices(text, name);
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
   config.vertex_color = false;
@@ -76,8 +105,6 @@ void check_size(const TriangleMesh& mesh, const std::string& name) {
                 mesh.triangles.size(), kMeshTrianglesMax);
   glm::dvec3 low(std::numeric_limits<double>::max()), high(-low);
   for (const glm::dvec3& v : mesh.vertices) {
-    if (!std::isfinite(v.x + v.y + v.z))
-      throw error(Exit::usage, "{}: a vertex is no number; every v line must have three", name);
     low = glm::min(low, v);
     high = glm::max(high, v);
   }

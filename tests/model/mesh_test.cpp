@@ -93,6 +93,11 @@ TEST_F(MeshTest, BadMeshesAreRefusedWithTheReason) {
   EXPECT_NE(refusal("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n", Exit::usage)
                 .find("meshes.scale"),
             std::string::npos);
+  for (const char* vertex : {"v 0 0 1x", "v nan 0 0", "v 0 1e999 0", "v 0 1", "v inf 0 0"}) {
+    const std::string reason = refusal(kCorners + vertex + "\n", Exit::usage);
+    EXPECT_NE(reason.find("three finite numbers"), std::string::npos) << reason;
+    EXPECT_NE(reason.find(vertex), std::string::npos) << reason;
+  }
   try {
     read_mesh(folder_ / "missing.obj", 1.0);
     FAIL() << "a missing file is refused";
