@@ -8,7 +8,7 @@ set(spirv_names "")
 # In double: every pass except the kernels that read texels, the compensated forms of float, and bench's copy.
 set(double_sources ${shader_sources})
 list(FILTER double_sources INCLUDE REGEX "/passes/")
-list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensated|/copy)\\.comp$")
+list(FILTER double_sources EXCLUDE REGEX "(_bands|_steal|_strip|_texel|_compensated|/copy|/spread_look)\\.comp$")
 list(TRANSFORM double_sources APPEND "+WEFT_F64")
 list(FILTER shader_sources EXCLUDE REGEX "/present\\.comp$")  # plans in double alone have it
 
@@ -18,6 +18,11 @@ set(reach_sources ${shader_sources} ${double_sources})
 list(FILTER reach_sources INCLUDE REGEX
   "/(integrate(_steal|_strip|_texel)?(_compensated)?|xpbd_finish|strain_limit|solid_contact|mesh_contact)\\.comp(\\+WEFT_F64)?$")
 list(TRANSFORM reach_sources APPEND "+WEFT_REACH")
+
+# What tells whether the cloth may stay spread out: in float alone.
+set(spread_sources ${shader_sources})
+list(FILTER spread_sources INCLUDE REGEX "/integrate(_steal|_strip|_texel)?\\.comp$")
+list(TRANSFORM spread_sources APPEND "+WEFT_SPREAD")
 
 # What reads vectors as texels where the kernel does.
 set(texel_sources "")
@@ -44,7 +49,7 @@ if(WEFT_BENCH_LACKING)
   endforeach()
 endif()
 
-foreach(variant ${shader_sources} ${double_sources} ${reach_sources} ${texel_sources} ${lacking_sources})
+foreach(variant ${shader_sources} ${double_sources} ${reach_sources} ${spread_sources} ${texel_sources} ${lacking_sources})
   string(REGEX REPLACE "\\+.*" "" source ${variant})
   set(define "")
   if(variant MATCHES "\\+(.*)$")

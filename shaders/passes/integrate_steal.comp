@@ -36,6 +36,7 @@ void put(uint p, vec4 x, vec4 v) {
 #include "../shared/force.glsl"
 #define LATE_SPHERES
 #include "../shared/contact.glsl"
+#include "../shared/spread.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 #include "../shared/strip.glsl"
@@ -98,5 +99,6 @@ void main() {
     } while (tile != kNone);
   }
   tell_reach();
+  tell_kicks();
   end_queues();
 }

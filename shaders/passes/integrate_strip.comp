@@ -34,6 +34,7 @@ void put(uint p, vec4 x, vec4 v) {
 #include "../shared/force.glsl"
 #define LATE_SPHERES
 #include "../shared/contact.glsl"
+#include "../shared/spread.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 #include "../shared/strip.glsl"
@@ -49,4 +50,5 @@ void main() {
   prepare_columns(first);
   march_strip(s, first, begin, min(begin + rows, params.ny));
   tell_reach();
+  tell_kicks();
 }

@@ -25,6 +25,7 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #include "../shared/reach.glsl"
 #include "../shared/force.glsl"
 #include "../shared/contact.glsl"
+#include "../shared/spread.glsl"
 #include "../shared/kick.glsl"
 #include "../shared/step_particle.glsl"
 

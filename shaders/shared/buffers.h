@@ -55,6 +55,7 @@
   ROW(patches, 47, real4, "boxes of 2 x 2 particles: low corner [m], 1 where spread; high, folds")     \
   ROW(patch_listed, 48, uint, "which of a patch's particles look for others, and where")               \
   ROW(lookers, 49, uint, "places of those particles, as they came")                                    \
-  ROW(blocks, 50, real4, "boxes of 4 x 4 particles, which the grid holds: low corner [m]; high")
+  ROW(blocks, 50, real4, "boxes of 4 x 4 particles, which the grid holds: low corner [m]; high")       \
+  ROW(spread_state, 51, uint, "whether the cloth stays spread out, nowhere folded (spread.h)")
 
 #endif

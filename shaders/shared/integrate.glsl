@@ -18,6 +18,7 @@ layout(constant_id = 10) const uint rows = 1u;  // that an invocation marches do
 #include "reach.glsl"
 #include "force.glsl"
 #include "contact.glsl"
+#include "spread.glsl"
 #include "kick.glsl"
 #include "drift.glsl"
 
@@ -33,6 +34,7 @@ void move(Step s, Column c, inout March m) {
     x1 = drifted_at(m.p, s, x0, v);
     if ((spheres || floor_contact) && s.drift > 0.0) touched_at(m.p, s, x0, x1, v);
     look_for_bodies(x0, x1);
+    look_at_kick(s.drift, x0, v0, x1, v);
   }
   position_next[m.p] = real4(x1, relative);
   velocity_next[m.p] = real4(v, 0.0);

@@ -15,6 +15,9 @@ Step step_of(uint row) {
 #ifdef WEFT_REACH
   hold_reach(row);
 #endif
+#ifdef WEFT_SPREAD
+  hold_spread();
+#endif
   real4 air_row = substeps[row], times = substeps[row + 1u];
   return Step(row, params.inverse_mass_1_kg, air_row.w, times.x, times.y, times.z, times.w, air_row.xyz,
               params.gravity_m_s2);

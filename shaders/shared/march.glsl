@@ -26,4 +26,7 @@ void main() {
 #ifdef WEFT_REACH
   tell_reach();
 #endif
+#ifdef WEFT_SPREAD
+  tell_kicks();
+#endif
 }

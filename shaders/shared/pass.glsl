@@ -1,7 +1,7 @@
 // What every pass includes: the dictionary's bindings, the parameter block, and the words READS, WRITES
 // and UPDATES that declare its interface. The host reads access and strides back from the SPIR-V.
 #extension GL_EXT_scalar_block_layout : require
-#ifdef WEFT_REACH
+#if defined(WEFT_REACH) || defined(WEFT_SPREAD)
 #extension GL_KHR_shader_subgroup_basic : require
 #endif
 #include "buffers.h"

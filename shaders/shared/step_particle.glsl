@@ -27,6 +27,9 @@ void step_particle(Step s, real3 F, real relative, inout real3 x, inout real3 v)
 #ifdef WEFT_REACH
   if (!near_sphere) look_for_bodies(x, x1);
 #endif
+#ifdef WEFT_SPREAD
+  if (!near_sphere) look_at_kick(s.drift, x, v, x1, v1);
+#endif
   x = x1;
   v = v1;
 }

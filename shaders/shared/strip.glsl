@@ -233,6 +233,9 @@ void touch_late(Step s, uint first) {
 #ifdef WEFT_REACH
       look_for_bodies(x0, x1.xyz);
 #endif
+#ifdef WEFT_SPREAD
+      look_at_kick(s.drift, x0, SOURCE_VELOCITY(p).xyz, x1.xyz, v);
+#endif
       put(p, x1, vec4(v, 0.0));
     }
   }

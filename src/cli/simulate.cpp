@@ -113,8 +113,10 @@ bool report_self_collision(const Options& o, Simulation& simulation) {
   if (!report) return true;
   if (o.verbose)
     std::cerr << fmt::format(
-        "weft: self-collision made its lists {}; the smallest gap of the last frame is {}\n",
-        counted(report->lists_built, "time"),
+        "weft: self-collision made its lists {}; the cloth stayed spread out, so that nothing could be near, "
+        "in "
+        "{}; the smallest gap of the last frame is {}\n",
+        counted(report->lists_built, "time"), counted(report->spread_frames, "frame"),
         report->smallest_gap_m ? fmt::format("{:.3g} m", *report->smallest_gap_m)
                                : std::string("beyond the lists' reach"));
   if (report->held_back > 0)

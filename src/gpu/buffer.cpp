@@ -126,6 +126,11 @@ void Buffer::read_finished(std::span<std::byte> data, VkDeviceSize offset) const
   }
 }
 
+void Buffer::copy_unused(const Buffer& from) {
+  check_range(from.bytes_, 0, "copy");
+  copy(*device_, from.handle_, 0, handle_, 0, from.bytes_);
+}
+
 VkBufferView Buffer::texel_view(VkFormat format) const {
   for (const auto& [known, view] : views_)
     if (known == format) return view;

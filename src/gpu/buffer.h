@@ -72,6 +72,8 @@ class Buffer {
   /// picture that is being drawn is not waited for.
   void write_unused(std::span<const std::byte> data, VkDeviceSize offset = 0);
   void read_finished(std::span<std::byte> data, VkDeviceSize offset = 0) const;
+  /// All of another buffer of as many bytes, on the device; the same holds for this one. Returns when done.
+  void copy_unused(const Buffer& from);
 
   /// A view of the whole buffer for samplerBuffer or imageBuffer, made at the first call; the usage must
   /// hold VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT or VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT.

@@ -58,7 +58,7 @@ Constants effects_of(const Plan& plan) {
 Cloth cloth_for(const Model& model, const Plan& plan) {
   return Cloth(model, effects_of(plan), is_xpbd(plan) ? kXpbdPad : kColumns,
                sweep_touches_bodies(plan) || sweep_watches_links(plan, model) ||
-                   sweep_watches_motion(plan, model) || sweep_watches_spread(plan, model));
+                   sweep_watches_motion(plan, model) || plan.spreads);
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ void Engine::furnish(const Model& model, const Plan& plan) {
     self_collision_ =
         std::make_unique<SelfCollision>(cloth_, kernels_, model, sweep_watches_motion(plan, model));
   spread_.reset();
-  if (allows_spread_frames_ && sweep_watches_spread(plan, model) && SpreadWatch(plan, model).is_possible())
+  if (allows_spread_frames_ && plan.spreads)
     spread_ = std::make_unique<SpreadFrames>(cloth_, kernels_, plan, model);
   if (is_xpbd(plan)) xpbd_ = std::make_unique<Xpbd>(cloth_, kernels_, model, plan, body_touch_.get());
   const auto predicts = [](const PlanStep& step) { return step.pass == &velocity_verlet_step; };

@@ -114,7 +114,7 @@ struct LeapAsked {
   std::uint32_t* leapt;  ///< set where a particle goes so far; null: nobody asks
 };
 
-/// What the sweep tells of kicks, native/spread_watch.h: raised to the squares [m²/s²] of how much velocities
+/// What the sweep tells of kicks, plan/spread_watch.h: raised to the squares [m²/s²] of how much velocities
 /// change in a substep, and of how far ways are from those of the velocities before, per second; kColumns of
 /// them, at a multiple of 64 bytes. Null: nobody asks.
 using KicksAsked = float*;

@@ -17,13 +17,8 @@ constexpr double kMoreLeast = 0.02, kMoreMost = 0.25, kRounding = 4e-7, kLess = 
 }  // namespace
 
 bool sweep_alone_moves(const Plan& plan) {
-  // The others look, or change velocities alone.
-  static constexpr std::array kMovesNobody{&integrate,       &carry,          &pair_check,   &cell_count,
-                                           &cell_scan,       &cell_fill,      &cell_sort,    &patch_near,
-                                           &pair_gather,     &surface_gather, &touch_weight, &surface_touch,
-                                           &surface_contact, &self_contact};
   return std::ranges::all_of(plan.steps, [](const PlanStep& step) {
-    return step.block != Block::substep || std::ranges::count(kMovesNobody, step.pass) > 0;
+    return step.block != Block::substep || step.pass == &integrate || serves_self_collision(*step.pass);
   });
 }
 

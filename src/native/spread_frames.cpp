@@ -13,8 +13,6 @@
 namespace weft::native {
 namespace {
 
-constexpr double kLongestEdge = 2.0;  // cells
-
 /// Two axes of length 1 and at right angles, as near to two directions as can be.
 struct Plane {
   glm::dvec3 along, down;
@@ -72,8 +70,8 @@ bool SpreadFrames::is_spread_by(double margin, SpreadState& found, Crew& crew, s
                  .nx = cloth_.nx(),
                  .ny = cloth_.ny(),
                  .rows = rows_.data(),
-                 .spread_min = static_cast<float>(watch_.spread_min(margin) * spacing_m_),
-                 .local_min = static_cast<float>(watch_.local_min(margin) * spacing_m_)};
+                 .spread_min = static_cast<float>(watch_.bound().spread_min(margin) * spacing_m_),
+                 .local_min = static_cast<float>(watch_.bound().local_min(margin) * spacing_m_)};
   copy(all.along, plane.along);
   copy(all.down, plane.down);
   const glm::dvec3 shared = shares_motion_ ? mean_velocity(cloth_, rows_) : glm::dvec3(0.0);
@@ -92,7 +90,7 @@ bool SpreadFrames::is_spread_by(double margin, SpreadState& found, Crew& crew, s
     all.longest2 = std::max(all.longest2, look.longest2);
   }
   // The grid of cells has room for what is not stretched like mad, and says where it has none.
-  if (all.longest2 > std::pow(kLongestEdge * spacing_m_, 2)) return false;
+  if (all.longest2 > std::pow(SpreadBound::kLongestEdge * spacing_m_, 2)) return false;
   constexpr double kUp = 1.0 + 1e-5;  // for what rounding took away
   found = {.margin = margin,
            .apart_m_s = kUp * std::sqrt(double{all.apart2}),
@@ -105,8 +103,8 @@ bool SpreadFrames::is_spread_by(double margin, SpreadState& found, Crew& crew, s
 /// The widest margin from `margin` on by which the cloth is spread.
 SpreadState SpreadFrames::look(std::size_t& margin, Crew& crew, std::uint32_t threads) const {
   SpreadState found;
-  for (; margin < std::size(SpreadWatch::kMargins); ++margin)
-    if (is_spread_by(SpreadWatch::kMargins[margin], found, crew, threads)) return found;
+  for (; margin < std::size(SpreadBound::kMargins); ++margin)
+    if (is_spread_by(SpreadBound::kMargins[margin], found, crew, threads)) return found;
   return {};
 }
 

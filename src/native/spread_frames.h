@@ -6,14 +6,14 @@
 
 #include "native/cloth.h"
 #include "native/crew.h"
-#include "native/spread_watch.h"
 #include "passes/host_buffers.h"
+#include "plan/spread_watch.h"
 
 namespace weft::native {
 
 class SpreadFrames {
  public:
-  /// @param plan, model  as sweep_watches_spread allows; the cloth outlives this
+  /// @param plan, model  as has_spread_frames allows; the cloth outlives this
   SpreadFrames(Cloth& cloth, const Kernels& kernels, const Plan& plan, const Model& model);
 
   /// Whether the frame that begins may be swept so. Then the words of collision_state are as after lists that
@@ -39,7 +39,7 @@ class SpreadFrames {
   bool shares_motion_;
   std::vector<const float*> rows_;  ///< of the cloth
   SpreadState now_;
-  std::size_t margin_ = 0;       ///< of SpreadWatch::kMargins, at the latest look
+  std::size_t margin_ = 0;       ///< of SpreadBound::kMargins, at the latest look
   bool under_way_ = false;       ///< a frame has been begun, and not taken back
   std::uint32_t held_back_ = 0;  ///< times, when the latest frame began
   std::vector<std::uint32_t> kept_words_;

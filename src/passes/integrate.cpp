@@ -5,6 +5,7 @@
 
 #include "passes/passes.h"
 #include "passes/reach.h"
+#include "passes/spread.h"
 #include "passes/substep.h"
 
 namespace weft {
@@ -46,6 +47,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
   position_next.resize(context.model.grid.count());
   velocity_next.resize(context.model.grid.count());
   ReachTeller<T> reach(context, buffers);
+  SpreadTeller<T> spread(buffers, substep.row.drift, substep.has_contact());
   reach.look_at_links(context.model.grid, std::as_const(buffers)[BufferId::position]);
   Compensation<T, kCompensated> compensation(buffers, context.model.grid.count());
   sweep_particles(context, std::as_const(buffers), [&](std::size_t p, const Vec3<T>& force) {
@@ -54,6 +56,7 @@ void mirror(const MirrorContext& context, HostBuffers<T>& buffers) {
     if (!own.pinned()) {
       kick_drift_touch(substep, compensation, p, substep.acceleration(force, own.w), own.x, x1, v);
       reach.look(own.x, x1);
+      spread.look(own.x, own.v, x1, v);
     }
     position_next[p] = glm::vec<4, T>(x1, own.relative);
     velocity_next[p] = glm::vec<4, T>(v, T(0));

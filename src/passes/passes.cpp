@@ -1,11 +1,20 @@
 // The list of passes.
 #include "passes/passes.h"
 
+#include <algorithm>
 #include <array>
 
 namespace weft {
 
 bool watches(const Pass& pass) { return &pass == &watch || &pass == &judge || &pass == &keep_sound; }
+
+bool serves_self_collision(const Pass& pass) {
+  static constexpr std::array kThese{&carry,          &pair_check,   &cell_count,    &cell_scan,
+                                     &cell_fill,      &cell_sort,    &patch_near,    &pair_gather,
+                                     &surface_gather, &touch_weight, &surface_touch, &surface_contact,
+                                     &self_contact};
+  return std::ranges::find(kThese, &pass) != kThese.end();
+}
 
 std::span<const Pass* const> passes() {
   static constexpr std::array kPasses{&integrate,
@@ -54,7 +63,8 @@ std::span<const Pass* const> passes() {
                                       &touch_weight,
                                       &surface_touch,
                                       &surface_contact,
-                                      &self_contact};
+                                      &self_contact,
+                                      &spread_look};
   return kPasses;
 }
 

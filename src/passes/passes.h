@@ -55,9 +55,14 @@ extern const Pass touch_weight;     ///< pairs nearer than their limit
 extern const Pass surface_touch;    ///< distances of near triangles and edges
 extern const Pass surface_contact;  ///< what those that touch give their particles
 extern const Pass self_contact;     ///< pushes them apart
+extern const Pass spread_look;      ///< self-collision: is the cloth spread out, so that it has nothing to do
 
 /// Whether the pass is one of the three that look for divergence at every frame's end.
 bool watches(const Pass& pass);
+
+/// Whether the pass is one of those that a frame of a plan with self-collision leaves out while the cloth
+/// stays spread out: they look, or change velocities where surfaces are near.
+bool serves_self_collision(const Pass& pass);
 
 /// All of them; `validate` walks this list.
 std::span<const Pass* const> passes();

@@ -14,6 +14,7 @@
 #include "passes/tearing.h"
 #include "passes/xpbd.h"
 #include "plan/plan.h"
+#include "shared/spread.h"
 
 namespace weft {
 
@@ -43,6 +44,7 @@ std::uint64_t element_count(BufferId id, const Model& model, std::uint32_t rows)
     case BufferId::cell_members: return block_domain(model).items();
     case BufferId::patch_listed: return patch_domain(model).items();
     case BufferId::surface_sums: return std::uint64_t{shared::kSumPlanes} * model.grid.count();
+    case BufferId::spread_state: return shared::kSpreadStateWords;
     case BufferId::watch_state: return shared::kWatchStateWords;
     case BufferId::watch_parts: return shared::kPartPlanes * watch.domain(model).items();
     case BufferId::reach_groups:

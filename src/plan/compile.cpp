@@ -11,6 +11,7 @@
 #include "passes/strain_limit.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
+#include "plan/spread_frame.h"
 
 namespace weft {
 namespace {
@@ -69,6 +70,7 @@ std::vector<PlanBuffer> buffers_for(const Model& model, const Plan& plan) {
     needed.insert(touched.begin(), touched.end());
   }
   if (plan.reaching.asked()) needed.insert(BufferId::reach_groups);
+  if (plan.spreads) needed.insert(BufferId::spread_state);
   std::vector<PlanBuffer> buffers;
   buffers.reserve(needed.size());
   for (const BufferId id : needed)
@@ -236,6 +238,7 @@ Plan compile_plan(const Model& model, const Solver& solver, std::string_view pre
                         });
   plan.reaching.bodies = asks_bodies(model);
   plan.reaching.tears = model.scene.tearing.has_value();
+  plan.spreads = has_spread_frames(plan, model);
   plan.buffers = buffers_for(model, plan);
   plan.left_out = left_out_effects(model);
   if (model.grid.cloths > 1) plan.sheet_rows = model.grid.ny;

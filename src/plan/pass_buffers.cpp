@@ -109,6 +109,7 @@ constexpr PassBuffers kPassBuffers[] = {
     {&weft::self_contact,
      kThese<Id::params, Id::velocity, Id::collision, Id::collision_state, Id::pair_count, Id::pair_places,
             Id::touch_weight, Id::near_position, Id::near_velocity, Id::surface_sums>},
+    {&weft::spread_look, kThese<Id::params, Id::position, Id::velocity, Id::velocity_next, Id::spread_state>},
     // A frame's end.
     {&weft::normals, kThese<Id::params, Id::position, Id::normal>},
     {&weft::present, kThese<Id::params, Id::position, Id::normal, Id::draw_position, Id::draw_normal>},

@@ -55,6 +55,8 @@ struct Plan {
   std::uint32_t sheet_rows =
       0;  ///< of each of several cloths: constant 30 of the passes that ask for it; 0: one
   Reaching reaching;
+  bool spreads = false;      ///< frames may be computed as spread_frame() says, if the cloth stays spread
+  bool tells_kicks = false;  ///< `integrate` tells whether a velocity changed by more than the host allows
   bool in_double() const { return precision == "f64"; }
   std::uint64_t bytes() const;
   std::uint64_t dispatches() const;  ///< a full frame's

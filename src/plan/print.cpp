@@ -9,6 +9,7 @@
 #include "passes/reach.h"
 #include "plan/buffers.h"
 #include "plan/plan.h"
+#include "plan/spread_frame.h"
 
 namespace weft {
 namespace {
@@ -55,6 +56,18 @@ std::string intervals_text(const Plan& plan) {
   return lines;
 }
 
+/// Says what of the plan a frame does not need in which the cloth stays spread out.
+std::string spread_text(const Plan& plan, const Model& model) {
+  constexpr std::uint32_t kInterval = 32;  // of looks, on a cloth that moves slowly
+  if (!plan.spreads) return {};
+  return fmt::format(
+      "A frame in which the cloth stays spread out, nowhere folded, has {} dispatches: integrate, what ends "
+      "a "
+      "frame, and spread_look as often as it takes to know that ({} here).\n",
+      spread_frame(plan, model, kInterval).dispatches(),
+      counted((plan.substeps - 1) / kInterval + 2, "time"));
+}
+
 /// Says where self-collision, and not stability, decides how many substeps a frame has.
 std::string raised_text(const Plan& plan, const Model& model) {
   const std::uint32_t wanted = contact_substeps(model);
@@ -87,6 +100,7 @@ std::string describe(const Plan& plan, const Model& model) {
                         plan.reaching.tears ? "tear" : "strain_limit");
   if (plan.reaching.tears)
     text += "integrate moves the cloth until a link breaks, integrate_torn from then on.\n";
+  text += spread_text(plan, model);
   text += raised_text(plan, model);
   if (!plan.solver->on_gpu)
     text += fmt::format("The solver {} runs on the CPU reference only: no pipelines, no buffers.\n",
@@ -122,6 +136,7 @@ std::string to_json(const Plan& plan, const Model& model) {
                              {"constants", constants}});
     if (step.interval > 1) json["steps"].back()["interval"] = step.interval;
   }
+  if (plan.spreads) json["spread_frames"] = true;
   json["buffers"] = Json::array();
   for (const PlanBuffer& buffer : plan.buffers)
     json["buffers"].push_back({{"name", row_of(buffer.id).name}, {"bytes", buffer.bytes}});

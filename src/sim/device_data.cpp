@@ -95,6 +95,16 @@ Bytes table_bytes(const Model& model, const Plan& plan, std::span<const KickDrif
   });
 }
 
+void write_table(GpuBuffers& buffers, std::uint32_t slot, const Model& model, const Plan& plan,
+                 std::span<const KickDrift> rows, const Perturbation& perturbation) {
+  const Bytes table = table_bytes(model, plan, rows, perturbation);
+  gpu::Buffer& buffer = buffers.at(BufferId::substeps, slot);
+  if (table.size() > buffer.bytes())
+    throw error(Exit::internal, "a frame has {} rows; the plan of {} substeps has room for {}", rows.size(),
+                plan.substeps, substep_row_capacity(plan.row_count()));
+  buffer.write_unused(table);
+}
+
 void write_blocks(GpuBuffers& buffers, const Model& model, const Plan& plan,
                   const Perturbation& perturbation) {
   for (const BufferId id :

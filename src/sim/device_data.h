@@ -1,7 +1,9 @@
 // What the host computes for a plan's buffers on a device and reads back from them, in the plan's precision.
 // The caller has waited for the simulation; pictures of it are waited for where what they show is written.
 #pragma once
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,6 +29,18 @@ Bytes block_bytes(BufferId id, const Model&, const Plan&, const Perturbation& = 
 
 /// The substep table with these rows.
 Bytes table_bytes(const Model&, const Plan&, std::span<const KickDrift> rows, const Perturbation& = {});
+
+/// Writes a frame's rows into the slot's copy of the substep table, which no submitted work reads.
+void write_table(GpuBuffers&, std::uint32_t slot, const Model&, const Plan&, std::span<const KickDrift> rows,
+                 const Perturbation&);
+
+/// The first words of a buffer that nothing under way writes.
+template <std::size_t kCount>
+std::array<std::uint32_t, kCount> read_words(const GpuBuffers& buffers, BufferId id) {
+  std::array<std::uint32_t, kCount> words{};
+  buffers.at(id).read_finished(std::as_writable_bytes(std::span(words)));
+  return words;
+}
 
 /// Fills every copy of the blocks that the plan has.
 void write_blocks(GpuBuffers&, const Model&, const Plan&, const Perturbation& = {});

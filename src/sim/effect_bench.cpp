@@ -24,6 +24,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Substeps of a frame's beginning: enough for a device to compute it as it computes whole frames
+/// (GpuSpreadFrames).
+constexpr std::uint32_t kBeginning = 8;
+
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
@@ -63,13 +67,14 @@ class Side {
         substeps_(scene.solver.substeps),
         automatic_(automatic_substeps(scene)),
         turn_substeps_(substeps_within(timed_->plan(), turn_most, substeps_)) {}
-  /// One frame from `state`, or its first substeps: what the first substep alone does, as making lists, is
+  /// One frame from `state`, or its first substeps: what its beginning alone does, as making lists, is
   /// counted once.
   void turn(const State& state) {
     const RunTime all = run(state, turn_substeps_);
     if (turn_substeps_ == substeps_) return keep({all.once_ms + all.substeps_ms, all.processor_ms});
-    const RunTime first = run(state, 1);
-    const double others = static_cast<double>(substeps_ - 1) / (turn_substeps_ - 1);
+    const std::uint32_t few = turn_substeps_ > 2 * kBeginning ? kBeginning : 1;
+    const RunTime first = run(state, few);
+    const double others = static_cast<double>(substeps_ - few) / (turn_substeps_ - few);
     keep({all.once_ms + first.substeps_ms + others * (all.substeps_ms - first.substeps_ms),
           first.processor_ms + others * (all.processor_ms - first.processor_ms)});
   }

@@ -63,7 +63,9 @@ constexpr std::size_t kSheetRowsConstant = 30;
 constexpr std::size_t kAsksLinksConstant = 29, kTearsConstant = 28;
 
 /// What the host writes or reads every frame, without a copy between; devices seldom touch it.
-bool host_reaches(BufferId id) { return host_written(id) || id == BufferId::watch_state; }
+bool host_reaches(BufferId id) {
+  return host_written(id) || id == BufferId::watch_state || id == BufferId::spread_state;
+}
 
 }  // namespace
 
@@ -194,7 +196,8 @@ GpuProgram::GpuProgram(gpu::Device& device, const Plan& plan, const GpuBuffers& 
     : kernel_(kernel ? *kernel : direct_kernel(device, plan)),
       doubles_(plan.in_double()),
       reaching_(plan.reaching),
-      sheet_rows_(plan.sheet_rows) {
+      sheet_rows_(plan.sheet_rows),
+      tells_kicks_(plan.tells_kicks) {
   if (!pipelines) pipelines = std::make_shared<GpuPipelines>(device);
   for (const PlanStep& step : plan.steps) {
     Step& made = steps_.emplace_back(
@@ -214,6 +217,7 @@ GpuProgram::Work GpuProgram::work_for(gpu::Device& device, const PlanStep& step,
   const bool asked = reaching_.word(step) || (reaching_.asked() && step.pass->tells_reach);
   const bool always = std::ranges::count(buffers_of(*step.pass), BufferId::reach_groups) > 0;
   if (asked && !always) variant.module += "+WEFT_REACH";
+  if (tells_kicks_ && step.pass == &integrate) variant.module += "+WEFT_SPREAD";
   const std::size_t pipeline = pipeline_for(device, step, variant, buffers, pipelines);
   if (several) return {pipeline, 1, kernel_.bands};
   if (step.pass == &integrate && kernel_.kind == KernelKind::steal) return {pipeline, kernel_.queues, 1};

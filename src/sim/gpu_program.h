@@ -92,6 +92,7 @@ class GpuProgram {
   bool doubles_;
   Reaching reaching_;
   std::uint32_t sheet_rows_;
+  bool tells_kicks_;
   std::vector<Pipeline> pipelines_;
   std::vector<Step> steps_;
 };

@@ -17,8 +17,9 @@
 #include "sim/device_data.h"
 #include "sim/frame_commands.h"
 #include "sim/frame_log.h"
+#include "sim/gpu_spread_frames.h"
 #include "sim/perturb.h"
-#include "sim/submit_pacer.h"
+#include "sim/submitted_frames.h"
 
 namespace weft {
 namespace {
@@ -46,11 +47,12 @@ class VulkanSimulation final : public GpuSimulation {
         buffers_(device, model_, plan_, choice_.kernel),
         program_(device, program_plan_, buffers_, pipelines_, choice_.kernel),
         commands_(device, plan_, program_),
-        pacer_(options.dispatches_per_submit),
+        submitted_(device, options.dispatches_per_submit),
         budget_(model_, start_state(model_), plan_.in_double()),
         free_mass_ratio_(free_mass_ratio(model_)) {
     write_blocks(buffers_, model_, plan_, perturbation_);
     write_groups(buffers_, model_);
+    furnish();
     write(start_state(model_));
   }
   ~VulkanSimulation() override {
@@ -77,8 +79,8 @@ class VulkanSimulation final : public GpuSimulation {
   std::optional<SelfCollisionReport> self_collision() override;
   std::optional<Divergence> divergence() const override { return log_.divergence(); }
   std::optional<State> last_good() override;
-  std::uint32_t submit_count() const override { return submits_; }
-  std::vector<double> step_ms() const override { return step_ms_; }
+  std::uint32_t submit_count() const override { return submitted_.submit_count(); }
+  std::vector<double> step_ms() const override { return submitted_.step_ms(); }
   DrawBuffers draw_buffers() const override {
     const auto handle = [&](BufferId id) {
       return buffers_.has(id) ? buffers_.at(id).handle() : VK_NULL_HANDLE;
@@ -89,7 +91,7 @@ class VulkanSimulation final : public GpuSimulation {
             handle(BufferId::torn_mesh)};
   }
   void wait() override {
-    for (Slot& slot : slots_) finish(slot);
+    submitted_.finish_all();
     look();
   }
 
@@ -97,7 +99,7 @@ class VulkanSimulation final : public GpuSimulation {
   void begin_frame(double frame_s, std::uint32_t substeps) override;
   bool continue_frame() override;
   bool await_part(double wait_s) override;
-  double part_ms() const override { return part_ms_; }
+  double part_ms() const override { return submitted_.part_ms(); }
   void refresh_normals() override;
   State read() override;
   void write(const State&) override;
@@ -105,18 +107,13 @@ class VulkanSimulation final : public GpuSimulation {
   void place(std::span<const PlacedParticle>) override;
 
  private:
-  using Clock = std::chrono::steady_clock;
-  struct Slot {
-    std::vector<FrameCommands::Chunk*> chunks;  // of the frame that runs in it
-    std::uint64_t last_submit = 0;
-    Clock::time_point start;
-    StepTimes times;  // of the frame so far
-  };
   struct Frame {  // the one being submitted
     std::uint32_t slot = 0, substeps = 0, done = 0;
     double start_s = 0, length_s = 0;
-    std::optional<DispatchOrder> order;  // absent between frames
-    FrameStats stats;
+    std::optional<DispatchOrder> order;           // absent between frames
+    GpuSpreadFrames::Commands* spread = nullptr;  // it is computed so; null: with all passes
+    bool proven = false;                          // that it may be
+    FrameStats stats{};
   };
   static Plan perturbed(Plan plan, const Perturbation& perturbation) {
     perturbation.apply(plan);
@@ -125,14 +122,16 @@ class VulkanSimulation final : public GpuSimulation {
   /// What of the parameters changes with time.
   void write_allowance(std::uint32_t slot);
   /// Takes in the device's verdict as it is by now.
-  void look();
+  void look() { log_.look(read_words<shared::kWatchStateWords>(buffers_, BufferId::watch_state)); }
   enum class Watched { yes, no };
   /// Runs what follows a frame's last kick on the state as it is; with the watch or without.
   void run_frame_end(Watched watched);
   void forget_lists();
-  void write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot);
-  void submit(FrameCommands::Chunk& chunk, Slot& slot);
-  void finish(Slot& slot);
+  void furnish();
+  void compute_whole();
+  bool proves_spread();
+  void settle();
+  void charge_spread();
   void end_frame();
 
   gpu::Device& device_;
@@ -145,79 +144,33 @@ class VulkanSimulation final : public GpuSimulation {
   GpuBuffers buffers_;
   GpuProgram program_;
   FrameCommands commands_;
-  SubmitPacer pacer_;
-  std::array<Slot, kFrameSlots> slots_;
+  SubmittedFrames submitted_;
+  std::unique_ptr<GpuSpreadFrames> spread_;  // null where the plan has no such frames
   Frame frame_;
   FrameLog log_;
   SpeedBudget budget_;
   double free_mass_ratio_;
-  double hand_m_s_ = 0.0;  // speed of the fastest particle placed since the latest frame began
-  std::vector<double> step_ms_;
-  double part_ms_ = 0.0;
+  bool kept_is_now_ = false;  // what keep_sound kept is the state
+  bool last_spread_ = false;  // the latest frame had none of self-collision's passes
+  double hand_m_s_ = 0.0;     // speed of the fastest particle placed since the latest frame began
   Parity parity_ = 0;
   std::uint64_t frames_ = 0;
-  std::uint32_t submits_ = 0;
+  std::uint32_t spread_frames_ = 0;
   double time_s_ = 0;
 };
 
 std::optional<SelfCollisionReport> VulkanSimulation::self_collision() {
   if (!model_.scene.self_collision) return std::nullopt;
   wait();
-  std::array<std::uint32_t, shared::kCollisionStateWords> words{};
-  buffers_.at(BufferId::collision_state).read_finished(std::as_writable_bytes(std::span(words)));
-  return report_of(words);
+  auto words = read_words<shared::kCollisionStateWords>(buffers_, BufferId::collision_state);
+  if (last_spread_) words[shared::kSmallestGap] = shared::kInfinity;
+  SelfCollisionReport report = report_of(words);
+  report.spread_frames = spread_frames_;
+  return report;
 }
 
 void VulkanSimulation::write_allowance(std::uint32_t slot) {
   write_energy_share(buffers_, slot, plan_, energy_share_s2_m2(free_mass_ratio_, budget_.allowed_m_s()));
-}
-
-void VulkanSimulation::look() {
-  std::array<std::uint32_t, shared::kWatchStateWords> words{};
-  buffers_.at(BufferId::watch_state).read_finished(std::as_writable_bytes(std::span(words)));
-  log_.look(words);
-}
-
-void VulkanSimulation::write_table(double frame_s, std::uint32_t substeps, std::uint32_t slot) {
-  const std::vector<KickDrift> rows = plan_.solver->schedule(time_s_, frame_s, substeps);
-  const Bytes table = table_bytes(model_, plan_, rows, perturbation_);
-  gpu::Buffer& buffer = buffers_.at(BufferId::substeps, slot);
-  if (table.size() > buffer.bytes())
-    throw error(Exit::internal,
-                "a frame of {} substeps needs {} rows; the plan of {} substeps has room for {}", substeps,
-                rows.size(), plan_.substeps, substep_row_capacity(plan_.row_count()));
-  buffer.write_unused(table);
-}
-
-void VulkanSimulation::submit(FrameCommands::Chunk& chunk, Slot& slot) {
-  if (slot.chunks.empty()) slot.start = Clock::now();
-  slot.last_submit = device_.submit(chunk.commands.handle());
-  slot.chunks.push_back(&chunk);
-  parity_ = chunk.parity_after;
-  ++submits_;
-}
-
-/// Waits for what the slot runs and adds its timings to the frame's.
-void VulkanSimulation::finish(Slot& slot) {
-  if (slot.chunks.empty()) return;
-  device_.wait(slot.last_submit);
-  double total_ms = 0;
-  std::uint32_t dispatches = 0;
-  for (const FrameCommands::Chunk* chunk : slot.chunks) {
-    dispatches += chunk->dispatches;
-    for (std::uint32_t run = 0; run < chunk->runs.size() && device_.info().timestamps; ++run) {
-      const double ms = std::max(chunk->timer->between_ms(run, run + 1), 0.0);
-      slot.times.add(chunk->runs[run], ms);
-      total_ms += ms;
-    }
-  }
-  if (device_.info().timestamps)
-    step_ms_ = slot.times.result();
-  else  // the wall clock is an upper bound: the submits also waited for others
-    total_ms = std::chrono::duration<double, std::milli>(Clock::now() - slot.start).count();
-  part_ms_ = total_ms;
-  pacer_.measured(dispatches, total_ms);
-  slot.chunks.clear();
 }
 
 FrameStats VulkanSimulation::advance(double frame_s, std::uint32_t substeps) {
@@ -233,30 +186,72 @@ void VulkanSimulation::begin_frame(double frame_s, std::uint32_t substeps) {
     commands_.clear();
   }
   const std::uint32_t slot_index = static_cast<std::uint32_t>(frames_++ % kFrameSlots);
-  Slot& slot = slots_[slot_index];
   wait();  // for the verdict on all that was computed; not for pictures of it
-  slot.times = StepTimes(plan_);
-  write_table(frame_s, substeps, slot_index);
+  submitted_.begin_frame(slot_index, plan_);
+  write_table(buffers_, slot_index, model_, plan_, plan_.solver->schedule(time_s_, frame_s, substeps),
+              perturbation_);
   budget_.elapse(model_.scene, frame_s, substeps, std::exchange(hand_m_s_, 0.0));
   write_allowance(slot_index);
   frame_ = {.slot = slot_index,
             .substeps = substeps,
-            .done = 0,
             .start_s = time_s_,
             .length_s = frame_s,
-            .order = DispatchOrder(plan_, substeps, choice_.kernel.substeps),
-            .stats = {.substeps = substeps, .dispatches = 0, .spring_evaluations = 0}};
-  submits_ = 0;
+            .stats = {.substeps = substeps}};
+  if (spread_ && kept_is_now_ && !log_.divergence())
+    frame_.spread = spread_->begin_frame(parity_, slot_index, frame_s / substeps, substeps);
+  charge_spread();
+  kept_is_now_ = false;
+  if (frame_.spread == nullptr) return compute_whole();
+  frame_.order = DispatchOrder(frame_.spread->plan, substeps);
+  submitted_.count_as(slot_index, &frame_.spread->step_of);
+}
+
+/// The frame from its start with all passes.
+void VulkanSimulation::compute_whole() {
+  frame_.spread = nullptr;
+  frame_.done = 0;
+  frame_.order = DispatchOrder(plan_, frame_.substeps, choice_.kernel.substeps);
+  submitted_.count_as(frame_.slot, nullptr);
+  if (spread_) spread_->forget();
+  if (std::exchange(last_spread_, false)) forget_lists();
+}
+
+/// What was done outside the frame's commands counts as the time of pair_check, whose work it does.
+void VulkanSimulation::charge_spread() {
+  if (!spread_) return;
+  const double ms = spread_->take_host_ms();
+  for (std::size_t step = 0; step < plan_.steps.size(); ++step)
+    if (plan_.steps[step].pass == &pair_check && plan_.steps[step].block == Block::frame_end)
+      submitted_.add(frame_.slot, step, ms);
+}
+
+/// Once all is computed that proves it; what was is taken back where it does not.
+bool VulkanSimulation::proves_spread() {
+  submitted_.finish(frame_.slot);
+  frame_.proven = spread_->stayed_spread();
+  if (frame_.proven) return true;
+  spread_->take_back(parity_);
+  charge_spread();
+  compute_whole();
+  return false;
 }
 
 bool VulkanSimulation::continue_frame() {
   if (!frame_.order) return false;
-  if (pacer_.learning()) finish(slots_[frame_.slot]);
+  const bool unproven = frame_.spread != nullptr && !frame_.proven;
+  if (unproven && frame_.done == GpuSpreadFrames::proven_before(*frame_.order) && !proves_spread())
+    return true;
+  const SubmitPacer& pacer = submitted_.pacer(frame_.slot);
+  if (pacer.learning()) submitted_.finish(frame_.slot);
   const DispatchOrder& order = *frame_.order;
-  const std::uint32_t count = std::min(pacer_.chunk(), order.count() - frame_.done);
+  const bool waits = frame_.spread != nullptr && !frame_.proven;
+  const std::uint32_t end = waits ? GpuSpreadFrames::proven_before(order) : order.count();
+  const std::uint32_t count = std::min(pacer.chunk(), end - frame_.done);
   const std::uint32_t n = order.independent_of_substeps(frame_.done, count) ? 0 : frame_.substeps;
-  FrameCommands::Chunk& chunk = commands_.chunk({frame_.slot, parity_, frame_.done, count, n}, order);
-  submit(chunk, slots_[frame_.slot]);
+  FrameCommands& commands = frame_.spread != nullptr ? frame_.spread->recorded : commands_;
+  FrameCommands::Chunk& chunk = commands.chunk({frame_.slot, parity_, frame_.done, count, n}, order);
+  submitted_.submit(frame_.slot, chunk);
+  parity_ = chunk.parity_after;
   frame_.stats.dispatches += chunk.dispatches;
   frame_.done += count;
   if (frame_.done < order.count()) {
@@ -268,8 +263,7 @@ bool VulkanSimulation::continue_frame() {
 }
 
 bool VulkanSimulation::await_part(double wait_s) {
-  for (const Slot& slot : slots_)
-    if (!slot.chunks.empty() && !device_.wait_for(slot.last_submit, wait_s)) return false;
+  if (!submitted_.await(wait_s)) return false;
   wait();
   return true;
 }
@@ -277,14 +271,31 @@ bool VulkanSimulation::await_part(double wait_s) {
 void VulkanSimulation::end_frame() {
   for (std::uint32_t place = 0; place < frame_.order->count(); ++place) {
     const DispatchOrder::Dispatch dispatch = (*frame_.order)[place];
-    frame_.stats.spring_evaluations += dispatch.count * plan_.steps[dispatch.step].spring_evaluations;
+    const Plan& plan = frame_.spread != nullptr ? frame_.spread->plan : plan_;
+    frame_.stats.spring_evaluations += dispatch.count * plan.steps[dispatch.step].spring_evaluations;
   }
+  last_spread_ = frame_.spread != nullptr;
+  spread_frames_ += last_spread_ ? 1 : 0;
+  kept_is_now_ = true;
   time_s_ = frame_end_s(frame_.start_s, frame_.length_s);
   log_.end_frame(time_s_, frame_.length_s, frame_.substeps);
   frame_.order.reset();
 }
 
+/// What is not proven yet of a frame that is under way is computed with all passes: somebody asks for the
+/// state, or changes it.
+void VulkanSimulation::settle() {
+  if (!frame_.order || frame_.spread == nullptr || frame_.proven) return;
+  submitted_.finish(frame_.slot);
+  if (frame_.done > 0) spread_->take_back(parity_);
+  const double reached_s = std::exchange(time_s_, frame_.start_s);
+  compute_whole();
+  while (time_s_ < reached_s && continue_frame()) {
+  }
+}
+
 State VulkanSimulation::read() {
+  settle();
   wait();
   return read_state(buffers_, parity_, model_, plan_, time_s_);
 }
@@ -305,9 +316,12 @@ void VulkanSimulation::write(const State& state) {
   budget_ = SpeedBudget(model_, state, plan_.in_double());
   write_allowance(0);
   forget_lists();
+  if (spread_) spread_->forget();
+  last_spread_ = false;
+  kept_is_now_ = true;
   log_.begin(time_s_);
-  const std::array<std::uint32_t, shared::kWatchStateWords> sound{};
-  buffers_.at(BufferId::watch_state).write_unused(std::as_bytes(std::span(sound)));
+  const std::vector<std::byte> sound(shared::kWatchStateWords * sizeof(std::uint32_t));
+  buffers_.at(BufferId::watch_state).write_unused(sound);
   run_frame_end(Watched::yes);
   look();
 }
@@ -342,6 +356,7 @@ std::optional<State> VulkanSimulation::last_good() {
 bool VulkanSimulation::adopt(const Model& model) {
   Plan next = compile_plan(model, *plan_.solver, model.scene.solver.precision);
   if (!same_commands(next, plan_)) return false;
+  settle();
   const bool anew = gives_by_place(model_, model);
   State state;
   if (anew) state = read();
@@ -352,12 +367,23 @@ bool VulkanSimulation::adopt(const Model& model) {
   free_mass_ratio_ = free_mass_ratio(model_);
   plan_ = std::move(next);
   write_blocks(buffers_, model_, plan_, perturbation_);
+  furnish();
   if (anew) write(state);
   return true;
 }
 
+/// What follows from the model alone.
+void VulkanSimulation::furnish() {
+  spread_.reset();
+  if (plan_.spreads)
+    spread_ = std::make_unique<GpuSpreadFrames>(device_, model_, program_plan_, buffers_, pipelines_,
+                                                choice_.kernel);
+}
+
 void VulkanSimulation::place(std::span<const PlacedParticle> particles) {
+  settle();
   wait();
+  kept_is_now_ = false;
   for (const PlacedParticle& placed : particles)
     hand_m_s_ = std::max(hand_m_s_, static_cast<double>(glm::length(placed.velocity_m_s)));
   write_placed(buffers_, parity_, model_, plan_, particles);

@@ -38,6 +38,12 @@ class NativeSimulation final : public CpuSimulation<float> {
     table_ = native::KickTable(model_, frame_.rows);
   }
 
+  std::optional<SelfCollisionReport> self_collision() override {
+    std::optional<SelfCollisionReport> report = CpuSimulation::self_collision();
+    if (report) report->spread_frames = spread_frames_;
+    return report;
+  }
+
   void write_drawn(const native::SurfaceTarget& target) override {
     need_rows();
     engine_.write_surface(target);
@@ -88,7 +94,10 @@ class NativeSimulation final : public CpuSimulation<float> {
   }
 
   /// With positions and velocities in the buffers, as watch and keep_sound find them.
-  void run_frame_end() override { run_stages(Block::frame_end, frame_.substeps); }
+  void run_frame_end() override {
+    run_stages(Block::frame_end, frame_.substeps);
+    spread_frames_ += spread_frame_ ? 1 : 0;
+  }
 
   void run_stages(Block block, std::uint32_t substep) {
     bool swept = false, near_links = true;
@@ -261,6 +270,7 @@ class NativeSimulation final : public CpuSimulation<float> {
   /// Where the latest state is: in the kernels' rows, in the buffers, or in both.
   bool rows_current_ = true, buffers_current_ = true;
   bool only_sweeps_ = false, sweeps_ahead_ = false, contact_follows_ = false;
+  std::uint32_t spread_frames_ = 0;
   bool spread_frame_ = false;  ///< the frame under way is swept without looks (Engine::sweep_spread)
   FrameStats stats_at_start_;  ///< of that frame
 };

@@ -27,6 +27,8 @@ struct SelfCollisionReport {
   /// The smallest distance [m] of two surfaces that share no particle, in the latest frame; nothing when all
   /// were farther apart than the lists reach.
   std::optional<double> smallest_gap_m;
+  /// Frames that were computed without its passes: the cloth stayed spread out, nowhere folded.
+  std::uint32_t spread_frames = 0;
 };
 
 class Simulation {

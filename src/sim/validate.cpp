@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "passes/passes.h"
 #include "passes/tables.h"
+#include "plan/spread_frame.h"
+#include "plan/spread_words.h"
 #include "sim/allowance.h"
 #include "sim/gpu_simulation.h"
 #include "sim/pass_runner.h"
+#include "sim/poison.h"
 #include "sim/probe_states.h"
 
 namespace weft {
@@ -93,6 +96,7 @@ class Validator {
 
  private:
   void check_passes(const Perturbation& perturbation);
+  void check_plan(const Perturbation& perturbation);
   struct Walk {  ///< through a frame
     const ProbeState& probe;
     std::vector<KickDrift> rows;
@@ -134,8 +138,18 @@ class Validator {
   std::unique_ptr<Simulation> mirror_run_, other_run_;  ///< in lockstep; other: float or double
 };
 
+/// The plan's own steps, and those of its frames in which the cloth stays spread out.
 template <class T>
 void Validator<T>::check_passes(const Perturbation& perturbation) {
+  check_plan(perturbation);
+  if (!plan_.spreads) return;
+  const Plan whole = std::exchange(plan_, spread_frame(plan_, model_, 1));
+  check_plan(perturbation);
+  plan_ = whole;
+}
+
+template <class T>
+void Validator<T>::check_plan(const Perturbation& perturbation) {
   start_runners(perturbation);
   for (const ProbeState& probe : probe_states(model_, solver_)) check_frame(probe);
   runners_.clear();
@@ -173,6 +187,7 @@ void Validator<T>::check_frame(const ProbeState& probe) {
     if (buffer.id != BufferId::built_position && buffer.id != BufferId::compensation)
       walk.host[buffer.id].clear();
   load_state(model_, probe.state, walk.host);
+  if (plan_.tells_kicks) ask_for_spread(plan_, model_, walk.host);
   const auto check_block = [&](Block block, std::uint32_t substep) {
     for (std::size_t step = 0; step < plan_.steps.size(); ++step)
       if (plan_.steps[step].block == block) check_step(step, substep, walk);
@@ -182,41 +197,6 @@ void Validator<T>::check_frame(const ProbeState& probe) {
     if (with.kernel.substeps > 1 && n > 1) check_several(with, walk);
   for (std::uint32_t k = 0; k < checked; ++k) check_block(Block::substep, k);
   check_block(Block::frame_end, n);
-}
-
-template <class T>
-bool is_poison(T value) {
-  const T expected = poison<T>();  // by its bits: NaN is not equal to itself
-  return std::memcmp(&value, &expected, sizeof value) == 0;
-}
-
-template <class T>
-void poison_mirror(BufferId id, HostBuffers<T>& host) {
-  std::ranges::fill(host.words_of(id), kPoison);
-  std::ranges::fill(host[id], glm::vec<4, T>(poison<T>()));
-}
-
-/// Where the mirror wrote nothing, a kernel that reads its outputs finds and leaves what was there before.
-template <class T>
-void restore_poisoned(BufferId id, const HostBuffers<T>& before, HostBuffers<T>& expected) {
-  for (std::size_t p = 0; p < expected[id].size(); ++p)
-    for (int c = 0; c < 4; ++c)
-      if (is_poison(expected[id][p][c])) expected[id][p][c] = before[id][p][c];
-}
-
-/// Where neither side wrote, the buffer holds what it held before, on both.
-template <class T>
-void restore_unwritten(BufferId id, const HostBuffers<T>& before, HostBuffers<T>& got,
-                       HostBuffers<T>& expected) {
-  const auto& words = before.words_of(id);
-  for (std::size_t k = 0; k < words.size(); ++k)
-    if (got.words_of(id)[k] == kPoison && expected.words_of(id)[k] == kPoison)
-      got.words_of(id)[k] = expected.words_of(id)[k] = words[k];
-  const auto& vectors = before[id];
-  for (std::size_t p = 0; p < vectors.size(); ++p)
-    for (int c = 0; c < 4; ++c)
-      if (is_poison(got[id][p][c]) && is_poison(expected[id][p][c]))
-        got[id][p][c] = expected[id][p][c] = vectors[p][c];
 }
 
 /// @param expected  what the mirror left, poison where it wrote nothing

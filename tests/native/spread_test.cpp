@@ -27,9 +27,6 @@
 namespace weft {
 namespace {
 
-using native::SpreadState;
-using native::SpreadWatch;
-
 Constants constants_of(const Plan& plan) {
   Constants all;
   for (const PlanStep& step : plan.steps)
@@ -113,7 +110,7 @@ TEST(NativeSpread, NothingIsListedWhereItSaysSo) {
       for (const Shape& shape : spread_and_not()) {
         SCOPED_TRACE(fmt::format("{} x {}, {}, {}", columns, rows, thickness_cells, shape.name));
         const HostBuffers<float> buffers = buffers_of(model, plan, shape, ++seed);
-        for (const double margin : SpreadWatch::kMargins) {
+        for (const double margin : SpreadBound::kMargins) {
           SpreadState found;
           const bool is = is_spread(model, plan, buffers, margin, found);
           (is ? spread : folded) += 1;
@@ -269,7 +266,7 @@ TEST(NativeSpread, FramesThatFailAreTriedLess) {
 TEST(NativeSpread, ThickClothIsNeverSpread) {
   const auto is_possible = [](double thickness_cells) {
     const Model model = sheet_model(9, 9, thickness_cells);
-    return SpreadWatch(compile_plan(model, find_solver("leapfrog")), model).is_possible();
+    return SpreadBound(compile_plan(model, find_solver("leapfrog")), model).is_possible();
   };
   EXPECT_TRUE(is_possible(0.5));
   EXPECT_TRUE(is_possible(1.0));
@@ -320,6 +317,7 @@ TEST(NativeSpread, FramesEndInTheReferencesBits) {
       if (one.stays) {
         EXPECT_EQ(got->self_collision()->lists_built, 20u);
         EXPECT_GT(right->self_collision()->lists_built, 40u);
+        EXPECT_EQ(got->self_collision()->spread_frames, 20u);
       } else {
         EXPECT_LE(got->self_collision()->lists_built, right->self_collision()->lists_built);
       }

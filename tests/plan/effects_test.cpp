@@ -60,8 +60,10 @@ TEST_P(EffectPairs, BringWhatEachBringsAlone) {
   for (const Effect& other : effects()) {
     if (!stand_together(find_effect(GetParam()), other)) continue;
     const Scene second = with_effect(base, other.name), both = with_effect(first, other.name);
-    EXPECT_EQ(words_of(plan_of(both)), united(own, words_of(plan_of(second))))
-        << GetParam() << " + " << other.name;
+    std::set<std::string> expected = united(own, words_of(plan_of(second)));
+    // Frames without self-collision's passes are for cloth that nothing but `integrate` moves.
+    if (!plan_of(both).spreads) expected.erase("buffer spread_state");
+    EXPECT_EQ(words_of(plan_of(both)), expected) << GetParam() << " + " << other.name;
     std::uint64_t sum = 0;
     for (const PlanBuffer& buffer : plan_of(both).buffers) sum += buffer.bytes;
     EXPECT_EQ(plan_of(both).bytes(), sum);
