@@ -19,10 +19,11 @@ layout(local_size_x = 64) in;
 
 #include "../shared/held_params.glsl"
 
-const uint kMargins = (1u << kSpreadMargins) - 1u;
 shared uint found[kSpreadFoundCount];
 shared uint found_short;
 float least[kSpreadMargins], local_least[kSpreadMargins];  // how far cells have to go [m], read once
+float strict;  // of local_least, for the widest margin that is asked for
+uint margins;  // a bit for each that is
 
 vec3 said(uint word) {
   return vec3(uintBitsToFloat(spread_state[word]), uintBitsToFloat(spread_state[word + 1u]),
@@ -98,7 +99,7 @@ uint short_locally(uint i, uint j, uint asked) {
 // as they must along their surroundings, are spread by all and not asked.
 uint short_at(Frame plane, uint i, uint j) {
   Cell cell = cell_at(place(i, j), place(i + 1u, j), place(i, j + 1u), place(i + 1u, j + 1u));
-  uint asked = short_in(plane, cell, local_least, kMargins), fails = short_in(plane, cell, least, asked);
+  uint asked = short_in(plane, cell, local_least, margins), fails = short_in(plane, cell, least, asked);
   uint rest = asked & ~fails;
   return rest == 0u ? fails : fails | short_locally(i, j, rest);
 }
@@ -142,14 +143,14 @@ Look march(Frame plane, vec3 shared_v, uint i, uint first, uint end) {
     float place2 = dot3(x, x), speed2 = dot3(own_v, own_v);
     float along2 = dot3(along_v, along_v), down2 = dot3(down_v, down_v);
     precise float all = (place2 + speed2) + (along2 + down2);
-    look.fails = (floatBitsToUint(all) & 0x7fffffffu) >= kInfinity ? kMargins : look.fails;  // no number
+    look.fails = (floatBitsToUint(all) & 0x7fffffffu) >= kInfinity ? margins : look.fails;  // no number
     look.place2 = larger(place2, look.place2);
     look.speed2 = larger(speed2, look.speed2);
     look.apart2 = larger(larger(along2, down2), look.apart2);
     look.longest2 = larger(larger(dot3(cell.top, cell.top), dot3(cell.side, cell.side)), look.longest2);
     look.kick2 = larger(dot3(kick, kick), look.kick2);
-    bool goes = goes_along(slope_of(plane, cell.top, cell.side), local_least[0]) &&
-                goes_along(slope_of(plane, cell.bottom, cell.far), local_least[0]);
+    bool goes = goes_along(slope_of(plane, cell.top, cell.side), strict) &&
+                goes_along(slope_of(plane, cell.bottom, cell.far), strict);
     waiting |= has_right && has_below && !goes ? 1u << (j - first) : 0u;
     x = x_below;
     x_right = x_far;
@@ -173,6 +174,9 @@ void main() {
       least[margin] = uintBitsToFloat(spread_state[kSpreadLeast + margin]);
       local_least[margin] = uintBitsToFloat(spread_state[kSpreadLocalLeast + margin]);
     }
+    uint widest = spread_state[kSpreadFirst];
+    strict = uintBitsToFloat(spread_state[kSpreadLocalLeast + widest]);
+    margins = (1u << kSpreadMargins) - (1u << widest);
     Look look = march(plane, said(kSpreadShared), i, first, min(first + kSpreadRows, params.ny));
     atomicMax(found[kSpreadApart2 - kSpreadFound], floatBitsToUint(look.apart2));
     atomicMax(found[kSpreadSpeed2 - kSpreadFound], floatBitsToUint(look.speed2));

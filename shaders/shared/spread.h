@@ -33,7 +33,8 @@ WEFT_CONST uint kSpreadAxis2 = 20u;
 WEFT_CONST uint kSpreadShared = 23u;      // velocity that speeds are taken relative to [m/s]
 WEFT_CONST uint kSpreadLeast = 26u;       // for each margin: how far cells have to go along the plane [m]
 WEFT_CONST uint kSpreadLocalLeast = 29u;  // and along that of their surroundings
-WEFT_CONST uint kSpreadStateWords = 32u;
+WEFT_CONST uint kSpreadFirst = 32u;       // the widest margin that is asked for: those before it say nothing
+WEFT_CONST uint kSpreadStateWords = 33u;
 
 WEFT_SHARED_END
 #endif

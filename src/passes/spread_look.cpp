@@ -12,7 +12,6 @@ namespace weft {
 namespace {
 
 using V = glm::vec3;
-constexpr std::uint32_t kMargins = (1u << shared::kSpreadMargins) - 1;
 
 /// A cell's edges: along of both rows, down of both columns.
 struct Cell {
@@ -42,7 +41,8 @@ class Look {
         velocity_(buffers[BufferId::velocity]),
         before_(buffers[BufferId::velocity_next]),
         plane_{spread_vector(words_, shared::kSpreadAxis1), spread_vector(words_, shared::kSpreadAxis2)},
-        shared_v_(spread_vector(words_, shared::kSpreadShared)) {}
+        shared_v_(spread_vector(words_, shared::kSpreadShared)),
+        margins_((1u << shared::kSpreadMargins) - (1u << words_[shared::kSpreadFirst])) {}
 
   /// Takes in particle (i, j) and the cell whose first it is.
   void take(std::uint32_t i, std::uint32_t j) {
@@ -53,7 +53,7 @@ class Look {
     const V x = place(i, j), kick = v - speed(before_, i, j);
     const float place2 = dot3(x, x), speed2 = dot3(own_v, own_v), along2 = dot3(along_v, along_v),
                 down2 = dot3(down_v, down_v);
-    if (!std::isfinite((place2 + speed2) + (along2 + down2))) fails_ = kMargins;
+    if (!std::isfinite((place2 + speed2) + (along2 + down2))) fails_ = margins_;
     const V top = place(right, j) - x, side = place(i, below) - x;
     put(shared::kSpreadPlace2, place2);
     put(shared::kSpreadSpeed2, speed2);
@@ -127,7 +127,7 @@ class Look {
   }
   std::uint32_t short_at(std::uint32_t i, std::uint32_t j) const {
     const Cell own = cell(i, j);
-    const std::uint32_t asked = short_in(plane_, own, shared::kSpreadLocalLeast, kMargins);
+    const std::uint32_t asked = short_in(plane_, own, shared::kSpreadLocalLeast, margins_);
     const std::uint32_t fails = short_in(plane_, own, shared::kSpreadLeast, asked), rest = asked & ~fails;
     return fails | (rest != 0 ? short_locally(i, j, rest) : 0);
   }
@@ -137,6 +137,7 @@ class Look {
   const std::vector<glm::vec4>&position_, &velocity_, &before_;
   Frame<float> plane_;
   V shared_v_;
+  std::uint32_t margins_;  ///< a bit for each that is asked for
   std::array<float, shared::kSpreadFoundCount> found_{};
   std::uint32_t fails_ = 0;
 };

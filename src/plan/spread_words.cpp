@@ -20,9 +20,10 @@ void put(std::vector<std::uint32_t>& words, std::uint32_t word, double value) {
 }  // namespace
 
 void begin_spread_words(std::vector<std::uint32_t>& words, const SpreadBound& bound, const Model& model,
-                        double kick_most_m_s) {
+                        double kick_most_m_s, std::uint32_t widest) {
   std::fill(words.begin(), words.begin() + shared::kSpreadAlong, 0u);
   put(words, shared::kSpreadKickMost2, kick_most_m_s * kick_most_m_s);
+  words[shared::kSpreadFirst] = widest;
   for (std::uint32_t k = 0; k < shared::kSpreadMargins; ++k) {
     const double margin = SpreadBound::kMargins[k], spacing_m = model.grid.spacing_m;
     put(words, shared::kSpreadLeast + k, bound.spread_min(margin) * spacing_m);

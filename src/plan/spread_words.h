@@ -11,9 +11,10 @@
 namespace weft {
 
 /// Nothing is found yet; how far cells have to go, and by how much a velocity may change in a substep.
-/// @param words  kSpreadStateWords
+/// @param words   kSpreadStateWords
+/// @param widest  of SpreadBound::kMargins, that looks ask for: wider ones cost time where the cloth bends
 void begin_spread_words(std::vector<std::uint32_t>& words, const SpreadBound& bound, const Model& model,
-                        double kick_most_m_s);
+                        double kick_most_m_s, std::uint32_t widest = 0);
 
 /// The plane that is as near as can be to two directions, and the velocity that speeds are relative to.
 void put_spread_plane(std::vector<std::uint32_t>& words, const glm::dvec3& along, const glm::dvec3& down,

@@ -78,7 +78,7 @@ void GpuSpreadFrames::read_found() {
 }
 
 void GpuSpreadFrames::write_words(double kick_most_m_s) {
-  begin_spread_words(words_, watch_.bound(), model_, kick_most_m_s);
+  begin_spread_words(words_, watch_.bound(), model_, kick_most_m_s, widest_);
   buffers_.at(BufferId::spread_state).write_unused(std::as_bytes(std::span(words_)));
 }
 
@@ -91,8 +91,17 @@ void GpuSpreadFrames::choose_plane() {
   has_plane_ = true;
 }
 
+/// The margin that there is; now and then a wider one, which may be there by now.
+void GpuSpreadFrames::choose_widest(double margin) {
+  constexpr std::uint32_t kFramesBetween = 8;
+  const auto* const there = std::ranges::find(SpreadBound::kMargins, margin);
+  widest_ = static_cast<std::uint32_t>(there - std::begin(SpreadBound::kMargins));
+  if (widest_ > 0 && ++narrow_frames_ % kFramesBetween == 0) --widest_;
+}
+
 /// One substep into the state's other half, for what it would change of velocities, and a look.
 void GpuSpreadFrames::look(Parity parity, std::uint32_t slot) {
+  widest_ = 0;
   write_words(0.0);
   const Plan frame = spread_frame(plan_, model_, 1);
   device_.run_once([&](VkCommandBuffer commands) {
@@ -128,7 +137,7 @@ SpreadState GpuSpreadFrames::found() const {
            .shared_m_s = glm::length(glm::dvec3(spread_vector(words_, shared::kSpreadShared))),
            .speed_m_s = kUp * root_of(words_[shared::kSpreadSpeed2]),
            .place_m = kUp * root_of(words_[shared::kSpreadPlace2])};
-  for (std::uint32_t k = 0; k < shared::kSpreadMargins && state.margin < 0.0; ++k)
+  for (std::uint32_t k = words_[shared::kSpreadFirst]; k < shared::kSpreadMargins && state.margin < 0.0; ++k)
     if ((words_[shared::kSpreadShort] >> k & 1u) == 0) state.margin = SpreadBound::kMargins[k];
   return state;
 }
@@ -160,6 +169,7 @@ GpuSpreadFrames::Commands* GpuSpreadFrames::begin_frame(Parity parity, std::uint
   }
   interval_ = *interval;
   choose_plane();
+  choose_widest(begin.margin);
   write_words(kick_most_m_s_);
   std::unique_ptr<Commands>& commands = commands_[interval_];
   if (!commands)

@@ -52,6 +52,7 @@ class GpuSpreadFrames {
   void read_found();
   void write_words(double kick_most_m_s);
   void choose_plane();
+  void choose_widest(double margin);
   SpreadState found() const;
   bool holds_between(const SpreadState& worst, std::uint32_t substeps) const;
   void end_frame(bool stayed);
@@ -68,9 +69,11 @@ class GpuSpreadFrames {
       std::vector<std::uint32_t>(shared::kSpreadStateWords);  ///< of spread_state, as last read or written
   bool known_ = false;                                        ///< words_ say how the frame that begins starts
   bool has_plane_ = false;
-  double kick_m_s_ = 0.0;                       ///< the largest change of a velocity in a substep lately
-  double caution_ = 2.0;                        ///< how much more it may be
-  double hurry_ = 1.0;                          ///< how much of a margin is taken to be there all the frame
+  std::uint32_t widest_ = 0,
+                narrow_frames_ = 0;  ///< margin that looks ask for; frames with less than the widest
+  double kick_m_s_ = 0.0;            ///< the largest change of a velocity in a substep lately
+  double caution_ = 2.0;             ///< how much more it may be
+  double hurry_ = 1.0;               ///< how much of a margin is taken to be there all the frame
   double drift_s_ = 0.0, kick_most_m_s_ = 0.0;  ///< of the frame under way
   std::uint32_t interval_ = 0;
   double host_ms_ = 0.0;
