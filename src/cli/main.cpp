@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/setup.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "core/text.h"
@@ -105,6 +106,7 @@ Exit run_command(CLI::App& app, const Options& options) {
     const CLI::App* chosen = app.get_subcommand(std::string(command->name));
     if (!chosen->parsed()) continue;
     refuse_leftovers(*chosen, command->name);
+    if (!command->opens_device) require_known_device(options);
     return command->run(options);
   }
   throw Error(Exit::internal, "no command was chosen");

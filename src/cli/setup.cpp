@@ -88,6 +88,10 @@ void refuse_vulkan_options(const Options& o, bool draws) {
           option, o.device, option);
 }
 
+void require_known_device(const Options& o) {
+  if (!o.device.empty() && o.on_vulkan()) gpu::require_device(o.device);
+}
+
 Options with_default_device(const Options& o) {
   const bool speaks_of_vulkan = !o.device.empty() || !o.kernel.empty() || !o.shaders.empty() ||
                                 o.validation || o.force_staging || std::getenv("WEFT_KERNEL") != nullptr;

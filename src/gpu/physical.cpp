@@ -201,6 +201,11 @@ std::vector<DeviceInfo> list_devices() {
   return infos;
 }
 
+void require_device(const std::string& choice) {
+  const Instance instance(false, {});
+  choose_device(ranked_devices(instance.handle()), choice);
+}
+
 std::string no_float64(const DeviceInfo& device, std::span<const DeviceInfo> all) {
   std::string able;
   for (const DeviceInfo& info : all)

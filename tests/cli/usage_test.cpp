@@ -157,6 +157,24 @@ TEST(Usage, AWishForAnErrorOrATimeStandsAlone) {
   expect_refused({"simulate", "1", "--budget", "4", "--solver", "xpbd"}, {"--budget", "--solver"});
 }
 
+// Every command heeds --device, also those that open none: a misspelt one is refused with what there is.
+TEST(Usage, AnUnknownDeviceIsRefusedByEveryCommand) {
+  for (const Arguments& arguments :
+       {Arguments{"plan", "1"}, Arguments{"simulate", "1", "--time", "0"}, Arguments{"validate", "1"},
+        Arguments{"bench", "1"}, Arguments{"render", "1", "--time", "0", "--out", "/tmp/never.png"},
+        Arguments{"study", "1", "--out", "/tmp/never"}, Arguments{"devices"}, Arguments{"scenes"},
+        Arguments{"materials"}, Arguments{"solvers"}}) {
+    Arguments words = arguments;
+    words.insert(words.end(), {"--device", "nativ"});
+    if (has_vulkan())
+      expect_refused(words, {"--device is \"nativ\"", "cpu or native", "usable"}, 3);
+    else
+      EXPECT_CODE(weft(words), 3);
+  }
+  for (const char* device : {"cpu", "native", "Native"})
+    EXPECT_CODE(weft({"plan", "1", "--device", device}), 0);
+}
+
 // A mistyped scene is said before a window is asked for.
 TEST(Usage, AnUnknownSceneIsExitTwoWithoutADisplay) {
   expect_refused({"view", "nosuchscene"}, {"nosuchscene"});
