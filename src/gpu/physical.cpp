@@ -4,9 +4,9 @@
 #include <cstring>
 #include <optional>
 
+#include "core/environment.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "gpu/environment.h"
 #include "gpu/instance.h"
 
 namespace weft::gpu {
