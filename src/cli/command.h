@@ -17,6 +17,7 @@ struct Command {
   /// Prints its result on stdout; returns the exit code.
   /// @throws Error for everything that fails; main prints it once
   Exit (*run)(const Options&);
+  bool opens_device = true;  ///< --device by itself; else main sees to it that there is such a device
 };
 
 extern const Command bench_command;

@@ -48,8 +48,11 @@ Exit run_devices(const Options& o) {
 
 }  // namespace
 
-const Command devices_command{"devices", "lists the devices, best first",
+const Command devices_command{"devices",
+                              "lists the devices, best first",
                               "  weft devices\n  weft simulate 1 --device 0 --time 0.5",
-                              [](CLI::App&, Options&) {}, run_devices};
+                              [](CLI::App&, Options&) {},
+                              run_devices,
+                              false};
 
 }  // namespace weft::cli

@@ -6,7 +6,9 @@
 #include <sstream>
 
 #include "cli/command.h"
+#include "cli/environment.h"
 #include "cli/interrupt.h"
+#include "cli/setup.h"
 #include "cli/table.h"
 #include "cli/text.h"
 #include "core/text.h"
@@ -105,6 +107,8 @@ Exit run_command(CLI::App& app, const Options& options) {
     const CLI::App* chosen = app.get_subcommand(std::string(command->name));
     if (!chosen->parsed()) continue;
     refuse_leftovers(*chosen, command->name);
+    check_environment();
+    if (!command->opens_device) require_known_device(options);
     return command->run(options);
   }
   throw Error(Exit::internal, "no command was chosen");

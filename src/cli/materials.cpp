@@ -27,8 +27,11 @@ Exit run_materials(const Options& o) {
 
 }  // namespace
 
-const Command materials_command{"materials", "lists the materials and their constants",
+const Command materials_command{"materials",
+                                "lists the materials and their constants",
                                 "  weft materials\n  weft simulate 1 --material denim --time 1",
-                                [](CLI::App&, Options&) {}, run_materials};
+                                [](CLI::App&, Options&) {},
+                                run_materials,
+                                false};
 
 }  // namespace weft::cli

@@ -44,7 +44,11 @@ void add_plan_options(CLI::App& app, Options& o) {
 }  // namespace
 
 const Command plan_command{
-    "plan", "prints the passes, constants, ranges and buffers of a scene, and what is left out",
-    "  weft plan 1\n  weft plan 5 --resolution 256 --format json", add_plan_options, run_plan};
+    "plan",
+    "prints the passes, constants, ranges and buffers of a scene, and what is left out",
+    "  weft plan 1\n  weft plan 5 --resolution 256 --format json",
+    add_plan_options,
+    run_plan,
+    false};
 
 }  // namespace weft::cli

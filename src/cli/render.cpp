@@ -31,11 +31,12 @@ double picture_rate(const Options& o, double frame_s) {
   return *o.picture.fps;
 }
 
-RenderOptions render_options(const PictureOptions& picture) {
+RenderOptions render_options(const PictureOptions& picture, double run_s) {
   RenderOptions options;
   options.width = picture.width;
   options.height = picture.height;
   options.samples = picture.samples.value_or(0);
+  options.film_s = run_s;
   options.look.shading = picture.flat ? Shading::flat : Shading::smooth;
   options.look.wireframe = picture.wireframe;
   return options;
@@ -132,7 +133,7 @@ Exit run_render(const Options& asked) {
   if (!machine.device) draw_with(drawing_device(o), machine);
   Outcome outcome;
   {
-    OffscreenRenderer renderer(*machine.device, setup.model, render_options(o.picture));
+    OffscreenRenderer renderer(*machine.device, setup.model, render_options(o.picture, run_s));
     outcome = film_scene(o, machine, renderer, run_s, film);
   }
   film.finish();

@@ -21,7 +21,11 @@ Exit run_scenes(const Options& o) {
 
 }  // namespace
 
-const Command scenes_command{"scenes", "lists the scenes", "  weft scenes\n  weft scenes --format json",
-                             [](CLI::App&, Options&) {}, run_scenes};
+const Command scenes_command{"scenes",
+                             "lists the scenes",
+                             "  weft scenes\n  weft scenes --format json",
+                             [](CLI::App&, Options&) {},
+                             run_scenes,
+                             false};
 
 }  // namespace weft::cli

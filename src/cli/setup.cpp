@@ -18,7 +18,7 @@ namespace {
 void require_device_solver(const Options& o, const Scene& scene, const Solver& solver) {
   if (!o.on_vulkan() || solver.on_gpu) return;
   throw error(Exit::usage, "{}: solver {} runs on the CPU reference only; run it with --device cpu",
-              scene.source, solver.name);
+              place_of(scene, "solver.name"), solver.name);
 }
 
 /// Where it runs, once native was asked for or is the default.
@@ -60,8 +60,8 @@ Setup set_up(const Options& o, const std::string& number_name_or_path) {
   const Scene scene = open_scene(o, number_name_or_path);
   Setup setup{build_model(scene), &find_solver(scene.solver.name)};
   if (!setup.solver->instability.empty())
-    note(o, fmt::format("warning: {}: solver.name is {}, which {} (leapfrog does not)", scene.source,
-                        setup.solver->name, setup.solver->instability));
+    note(o, fmt::format("warning: {}: solver.name is {}, which {} (leapfrog does not)",
+                        place_of(scene, "solver.name"), setup.solver->name, setup.solver->instability));
   require_device_solver(o, scene, *setup.solver);
   return setup;
 }
@@ -86,6 +86,10 @@ void refuse_vulkan_options(const Options& o, bool draws) {
           "{} and --device {} are both given; {} is for what a Vulkan device computes, so leave one of "
           "them out, or name such a device (`weft devices` lists them)",
           option, o.device, option);
+}
+
+void require_known_device(const Options& o) {
+  if (!o.device.empty() && o.on_vulkan()) gpu::require_device(o.device);
 }
 
 Options with_default_device(const Options& o) {

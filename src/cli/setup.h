@@ -54,6 +54,11 @@ std::vector<Scene> scenes_to_time(const Options&);
 /// device is a software one, and no option speaks of Vulkan (--kernel, --shaders, --validation,
 /// --force-staging).
 Options with_default_device(const Options&);
+
+/// For commands that open no device: --device must be one all the same.
+/// @throws Error(Exit::no_device) listing those there are
+void require_known_device(const Options&);
+
 /// Refuses options that speak of Vulkan together with a device that runs none.
 /// @param draws  whether a Vulkan device draws what is computed; then only the kernel is nobody's
 /// @throws Error(Exit::usage) naming both

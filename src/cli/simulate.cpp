@@ -32,7 +32,7 @@ double run_time_s(const Options& o, const Scene& scene) {
     throw error(Exit::usage,
                 "{}: expect.at_time is {} s and --time is {} s; the run must reach the check "
                 "(leave --time away)",
-                scene.source, check_s, run_s);
+                place_of(scene, "expect.at_time"), check_s, run_s);
   return run_s;
 }
 

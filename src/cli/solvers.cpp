@@ -18,8 +18,11 @@ Exit run_solvers(const Options& o) {
 
 }  // namespace
 
-const Command solvers_command{"solvers", "lists the solvers",
+const Command solvers_command{"solvers",
+                              "lists the solvers",
                               "  weft solvers\n  weft simulate 1 --device cpu --solver leapfrog --time 0.5",
-                              [](CLI::App&, Options&) {}, run_solvers};
+                              [](CLI::App&, Options&) {},
+                              run_solvers,
+                              false};
 
 }  // namespace weft::cli

@@ -5,9 +5,9 @@
 #include <mutex>
 #include <optional>
 
+#include "core/environment.h"
 #include "core/error.h"
 #include "gpu/buffer.h"
-#include "gpu/environment.h"
 
 namespace weft::gpu {
 namespace {

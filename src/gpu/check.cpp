@@ -1,11 +1,6 @@
-// Vulkan's answers as errors for a person, and debug switches of the environment.
-#include <charconv>
-#include <cstdlib>
-#include <cstring>
-
+// Vulkan's answers as errors for a person.
 #include "core/error.h"
 #include "gpu/device.h"
-#include "gpu/environment.h"
 
 namespace weft::gpu {
 namespace {
@@ -67,18 +62,6 @@ void check(VkResult result, const char* wish) {
       throw error(Exit::internal, "Vulkan could not {}: {} ({})", wish, result_name(result),
                   static_cast<int>(result));
   }
-}
-
-std::optional<std::uint64_t> environment_number(const char* name) {
-  const char* text = std::getenv(name);
-  if (text == nullptr || *text == '\0') return std::nullopt;
-  std::uint64_t value = 0;
-  const char* end = text + std::strlen(text);
-  const auto [stopped, problem] = std::from_chars(text, end, value);
-  if (problem != std::errc{} || stopped != end)
-    throw error(Exit::usage, "The environment variable {} is \"{}\"; it must be a whole number of at least 0",
-                name, text);
-  return value;
 }
 
 }  // namespace weft::gpu

@@ -6,10 +6,10 @@
 #include <mutex>
 #include <optional>
 
+#include "core/environment.h"
 #include "core/error.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
-#include "gpu/environment.h"
 #include "gpu/instance.h"
 #include "gpu/pipeline.h"
 

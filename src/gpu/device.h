@@ -37,6 +37,10 @@ struct DeviceInfo {
 /// Without a Vulkan loader or driver the list is empty.
 std::vector<DeviceInfo> list_devices();
 
+/// Looks whether `choice` means a device, as DeviceOptions::choice does, without opening it.
+/// @throws Error(Exit::no_device) naming those there are
+void require_device(const std::string& choice);
+
 /// Why `device` cannot compute in double, for an error message: it has no float64, and those of `all` that
 /// have.
 std::string no_float64(const DeviceInfo& device, std::span<const DeviceInfo> all);

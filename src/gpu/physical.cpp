@@ -4,9 +4,9 @@
 #include <cstring>
 #include <optional>
 
+#include "core/environment.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "gpu/environment.h"
 #include "gpu/instance.h"
 
 namespace weft::gpu {
@@ -199,6 +199,11 @@ std::vector<DeviceInfo> list_devices() {
     // No driver at all: an empty list is the answer.
   }
   return infos;
+}
+
+void require_device(const std::string& choice) {
+  const Instance instance(false, {});
+  choose_device(ranked_devices(instance.handle()), choice);
 }
 
 std::string no_float64(const DeviceInfo& device, std::span<const DeviceInfo> all) {

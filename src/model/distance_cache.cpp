@@ -85,16 +85,34 @@ std::filesystem::path mesh_file(const Scene& scene, const MeshSection& mesh) {
   return named.is_absolute() ? named : std::filesystem::path(scene.source).parent_path() / named;
 }
 
-std::shared_ptr<const DistanceGrid> load_distance_grid(const Scene& scene, const MeshSection& section,
+namespace {
+
+/// What is wrong with the file, with the entry that names it in front.
+TriangleMesh read_mesh_of(const Scene& scene, std::size_t item) {
+  const MeshSection& section = scene.meshes[item];
+  try {
+    return read_mesh(mesh_file(scene, section), section.scale);
+  } catch (const Error& failure) {
+    const std::string key = fmt::format("meshes.{}.file", item);
+    throw error(failure.code(), "{}: {} is {}; {}", place_of(scene, key), key, in_quotes(section.file, 80),
+                failure.what());
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const DistanceGrid> load_distance_grid(const Scene& scene, std::size_t item,
                                                        double half_thickness_m) {
+  const MeshSection& section = scene.meshes.at(item);
   const std::filesystem::path file = mesh_file(scene, section);
-  TriangleMesh mesh = read_mesh(file, section.scale);
+  TriangleMesh mesh = read_mesh_of(scene, item);
   if (const double most_m = 0.25 * longest_side_m(mesh); half_thickness_m > most_m)
     throw error(
         Exit::usage,
         "{}: self_collision.thickness is {} m with the mesh {}; it must be at most half of the mesh's "
         "longest side, {} m (use a thinner cloth or a larger mesh)",
-        scene.source, short_number(2.0 * half_thickness_m), file.string(), short_number(2.0 * most_m));
+        place_of(scene, "self_collision.thickness"), short_number(2.0 * half_thickness_m), file.string(),
+        short_number(2.0 * most_m));
   const std::filesystem::path kept = grid_file(file, section, half_thickness_m);
   auto grid = std::make_shared<DistanceGrid>();
   if (read_grid(kept, *grid)) {

@@ -47,8 +47,9 @@ DistanceGrid make_distance_grid(TriangleMesh mesh, std::uint32_t cells, double m
 /// The grid of a mesh of a scene, from the cache when it holds it. The cache is found again by what the file
 /// says, its scale, resolution and margin.
 /// @param half_thickness_m  of the cloth
-/// @throws Error as read_mesh, with the scene's place in front
-std::shared_ptr<const DistanceGrid> load_distance_grid(const Scene& scene, const MeshSection& mesh,
+/// @param item  of the scene's meshes
+/// @throws Error as read_mesh, with the place and key of the entry in front
+std::shared_ptr<const DistanceGrid> load_distance_grid(const Scene& scene, std::size_t item,
                                                        double half_thickness_m);
 
 /// The file a mesh names: from the folder of the scene's file.

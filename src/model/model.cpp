@@ -18,8 +18,6 @@ namespace {
 
 constexpr std::uint64_t kParticlesMax = std::uint64_t{1} << 26;
 
-std::string place(const Scene& scene) { return scene.source.empty() ? "scene" : scene.source; }
-
 /// m0/m of a free particle: 1/(e(i)·e(j)).
 std::vector<double> relative_inverse_masses(const Grid& grid) {
   std::vector<double> relative(grid.count());
@@ -59,11 +57,12 @@ void apply_pins(const Scene& scene, const Grid& grid, std::vector<double>& relat
     if (pin.cloth >= grid.cloths)
       throw error(Exit::usage,
                   "{}: pins[{}] holds cloth {}; it must be 0 to {} (add the cloth, or remove the pin)",
-                  place(scene), p, pin.cloth, grid.cloths - 1);
+                  place_of(scene, fmt::format("pins.{}.cloth", p)), p, pin.cloth, grid.cloths - 1);
     if (for_each_held(pin, grid, [&](std::uint32_t particle) { relative[particle] = 0.0; }) == 0)
       throw error(Exit::usage,
                   "{}: pins[{}] at ({}, {}) with radius {} m holds no particle; a radius of {} m always does",
-                  place(scene), p, pin.at.x, pin.at.y, pin.radius_m, grid.spacing_m * 0.5 * std::sqrt(2.0));
+                  place_of(scene, fmt::format("pins.{}.radius", p)), p, pin.at.x, pin.at.y, pin.radius_m,
+                  grid.spacing_m * 0.5 * std::sqrt(2.0));
   }
 }
 
@@ -151,23 +150,41 @@ std::array<SpringKind, kSpringKindCount> build_springs(const MaterialSection& m,
 Grid build_grid(const Scene& scene) {
   const ClothSection& cloth = scene.cloth;
   if (cloth.resolution < 2)
-    throw error(Exit::usage, "{}: cloth.resolution is {}; it must be at least 2", place(scene),
-                cloth.resolution);
+    throw error(Exit::usage, "{}: cloth.resolution is {}; it must be at least 2",
+                place_of(scene, "cloth.resolution"), cloth.resolution);
   const double spacing_m = cloth.width_m / (cloth.resolution - 1);
   const double cells = std::round(cloth.height_m / spacing_m);  // halves away from zero
   if (!(cells >= 1.0))
     throw error(Exit::usage,
                 "{}: cloth.height is {} m, less than half a cell of {} m; raise it or cloth.resolution",
-                place(scene), cloth.height_m, spacing_m);
+                place_of(scene, "cloth.height"), cloth.height_m, spacing_m);
   const std::uint32_t cloths = cloth_count(scene);
   if ((cells + 1.0) * cloth.resolution * cloths > static_cast<double>(kParticlesMax))
     throw error(
         Exit::usage,
         "{}: cloth.resolution is {}, which makes {} x {} particles{}; at most {} are possible (lower it)",
-        place(scene), cloth.resolution, cloth.resolution, cells + 1.0,
+        place_of(scene, "cloth.resolution"), cloth.resolution, cloth.resolution, cells + 1.0,
         cloths > 1 ? fmt::format(" in each of {} cloths", cloths) : "", kParticlesMax);
   return {cloth.resolution, static_cast<std::uint32_t>(cells) + 1, spacing_m, cloths};
 }
+
+namespace {
+
+void load_meshes(Model& model) {
+  const Scene& scene = model.scene;
+  std::size_t samples = 0;
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    model.meshes.push_back(load_distance_grid(scene, k, model.half_thickness_m));
+    samples += model.meshes.back()->distance.size();
+    if (samples > kMeshSamplesMax)
+      throw error(Exit::usage,
+                  "{}: the distance grids of meshes.0 to meshes.{} have {} samples; at most {} are possible "
+                  "(lower meshes.resolution)",
+                  place_of(scene, fmt::format("meshes.{}.resolution", k)), k, samples, kMeshSamplesMax);
+  }
+}
+
+}  // namespace
 
 Model build_model(const Scene& scene) {
   Model model;
@@ -181,16 +198,7 @@ Model build_model(const Scene& scene) {
   model.springs = build_springs(scene.material, a, model.interior_mass_kg);
   model.bend_kappa_n_m = {scene.material.bend_weft() / (a * a), scene.material.bend_warp() / (a * a)};
   model.half_thickness_m = scene.self_collision ? 0.5 * scene.self_collision->thickness_m : 0.0;
-  std::size_t samples = 0;
-  for (const MeshSection& mesh : scene.meshes) {
-    model.meshes.push_back(load_distance_grid(scene, mesh, model.half_thickness_m));
-    samples += model.meshes.back()->distance.size();
-  }
-  if (samples > kMeshSamplesMax)
-    throw error(Exit::usage,
-                "{}: the meshes' distance grids have {} samples; at most {} are possible (lower "
-                "meshes.resolution)",
-                place(scene), samples, kMeshSamplesMax);
+  load_meshes(model);
   for_each_spring(model,
                   [&](const SpringKind&, std::uint32_t, std::uint32_t, double) { ++model.spring_count; });
   model.bound = step_bound(model);

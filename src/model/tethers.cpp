@@ -82,7 +82,7 @@ std::vector<Tether> find_tethers(const Model& model, double slack) {
         Exit::usage,
         "{}: [tethers] has nothing to hold on to; it must have a pin that never lets go (add [[pins]], or "
         "remove the section)",
-        model.scene.source.empty() ? "scene" : model.scene.source);
+        place_of(model.scene, "tethers"));
   const std::vector<std::uint32_t> rows = nearest_rows(model);
   std::vector<Tether> tethers(grid.count());
   for (std::uint32_t j = 0; j < grid.ny; ++j) {

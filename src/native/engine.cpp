@@ -1,16 +1,14 @@
 // Puts cloth, kernel and threads together.
 #include "native/engine.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <thread>
 
 #include "core/cores.h"
-#include "core/error.h"
 #include "native/features.h"
 #include "passes/integrate.h"
 #include "passes/passes.h"
@@ -18,21 +16,8 @@
 namespace weft::native {
 namespace {
 
-constexpr std::uint32_t kThreadsMax = 1024;
-
 /// The most threads that a trial may find best: more than there are cores would only wait for each other.
-std::uint32_t threads_most() {
-  const std::uint32_t cores = std::min(usable_cores(), kThreadsMax);
-  const char* text = std::getenv("WEFT_THREADS");
-  if (text == nullptr) return cores;
-  std::uint32_t count = 0;
-  const char* const end = text + std::strlen(text);
-  const auto [stopped, failure] = std::from_chars(text, end, count);
-  if (failure != std::errc() || stopped != end || count < 1 || count > kThreadsMax)
-    throw error(Exit::usage, "WEFT_THREADS is \"{}\"; it must be a number of threads from 1 to {}", text,
-                kThreadsMax);
-  return std::min(count, cores);
-}
+std::uint32_t threads_most() { return std::min(usable_cores(), wished_threads().value_or(kThreadsMax)); }
 
 ThreadChoice choice_for(const Cloth& cloth, const EngineOptions& options) {
   const auto rows_allow =

@@ -1,5 +1,7 @@
-// Which vector kernel this machine runs.
+// Which vector kernel this machine runs, and what the environment asks of native.
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -14,5 +16,11 @@ std::span<const Kernels* const> kernels_here();
 /// @param name  empty: WEFT_VECTOR, else the widest
 /// @throws Error(Exit::usage) listing those that this machine has
 const Kernels& find_kernels(const std::string& name = {});
+
+inline constexpr std::uint32_t kThreadsMax = 1024;
+
+/// The most threads that WEFT_THREADS allows; nothing when it is not set.
+/// @throws Error(Exit::usage) when it is no number from 1 to kThreadsMax
+std::optional<std::uint32_t> wished_threads();
 
 }  // namespace weft::native

@@ -113,7 +113,7 @@ CollisionLayout collision_layout(const Model& model) {
     throw error(Exit::usage,
                 "{}: self_collision.thickness is {} m; at cloth.resolution {} the particles are {:.4g} m "
                 "apart, and the thickness may be at most {} times that (lower one of the two)",
-                model.scene.source.empty() ? "scene" : model.scene.source, thickness_m, model.grid.nx, a,
+                place_of(model.scene, "self_collision.thickness"), thickness_m, model.grid.nx, a,
                 kThicknessMax);
   CollisionLayout layout{};
   layout.thickness_m = thickness_m;
@@ -131,7 +131,7 @@ CollisionLayout collision_layout(const Model& model) {
     throw error(Exit::usage,
                 "{}: [self_collision] with {} x {} particles: it takes at most 8192 x 8192 (lower "
                 "cloth.resolution)",
-                model.scene.source.empty() ? "scene" : model.scene.source, model.grid.nx, model.grid.rows());
+                place_of(model.scene, "cloth.resolution"), model.grid.nx, model.grid.rows());
   layout.buckets = std::bit_ceil(PatchGrid(model.grid).block_count());
   layout.recover_1_s = kRecoverShare / look_time_s(model, layout);
   layout.capacity = list_capacity(thickness_m / a, layout.skin_m / a, model.grid.count());

@@ -17,7 +17,8 @@ shared::ParamsOf<T> make_params(const Model& model, double energy_share_s2_m2) {
   const Scene& scene = model.scene;
   if (scene.spheres.size() > shared::kMaxSpheres)
     throw error(Exit::usage, "{}: there are {} [[spheres]]; at most {} are possible (remove some)",
-                scene.source.empty() ? "scene" : scene.source, scene.spheres.size(), shared::kMaxSpheres);
+                place_of(scene, fmt::format("spheres.{}", shared::kMaxSpheres)), scene.spheres.size(),
+                shared::kMaxSpheres);
   const SpringRows<T> springs = spring_rows<T>(model);
   shared::ParamsOf<T> params{};
   for (std::size_t r = 0; r < springs.structural.size(); ++r) params.structural[r] = springs.structural[r];

@@ -114,7 +114,7 @@ std::vector<PlanStep> steps_for(const Model& model, const Solver& solver, std::u
 void require_precision(const Model& model, const Solver& solver, std::string_view precision) {
   if (precision != "f32" && precision != "f32k" && precision != "f64")
     throw error(Exit::usage, "{}: solver.precision is \"{}\"; it must be one of: f32, f32k, f64",
-                model.scene.source, precision);
+                place_of(model.scene, "solver.precision"), precision);
   if (precision != "f32k" || has_compensated(solver)) return;
   std::string able;
   for (const Solver* other : solvers())
@@ -122,35 +122,47 @@ void require_precision(const Model& model, const Solver& solver, std::string_vie
   throw error(Exit::usage,
               "{}: solver.precision is f32k, and {} has no compensated form; use f32 or f64, or one of the "
               "solvers {}",
-              model.scene.source, solver.name, able);
+              place_of(model.scene, "solver.precision"), solver.name, able);
+}
+
+/// Of capsules, boxes and a tilted floor, the first that the scene has.
+std::string solid_key(const Model& model) {
+  const Scene& scene = model.scene;
+  return !scene.capsules.empty() ? "capsules.0" : !scene.boxes.empty() ? "boxes.0" : "floor.normal";
 }
 
 /// What a scene may call for and only some solvers have the passes of: listed by one of these passes.
 struct Need {
   bool (*called_for)(const Model&);
   const Pass* pass;
-  std::string (*place)(const Model&);  ///< key and value
+  std::string (*key)(const Model&);    ///< or section, that calls for it
+  std::string (*about)(const Model&);  ///< key and value
   std::string_view cure;
 };
 const Need kNeeds[] = {
     {[](const Model& m) { return m.scene.self_collision.has_value(); }, &self_contact,
+     [](const Model&) { return std::string("self_collision"); },
      [](const Model& m) {
        return fmt::format("[self_collision] with thickness {} m", m.scene.self_collision->thickness_m);
      },
      "remove the section to simulate the cloth without it"},
-    {has_strain_limit, &strain_limit,
+    {has_strain_limit, &strain_limit, [](const Model&) { return std::string("material.strain_limit"); },
      [](const Model& m) { return fmt::format("material.strain_limit is {}", m.scene.material.strain_limit); },
      "set it to 0"},
-    {[](const Model& m) { return !solid_contact.domain(m).empty(); }, &solid_contact,
+    {[](const Model& m) { return !solid_contact.domain(m).empty(); }, &solid_contact, solid_key,
      [](const Model&) { return std::string("[[capsules]], [[boxes]] or a tilted [floor]"); }, "remove them"},
     {[](const Model& m) { return !m.meshes.empty(); }, &mesh_contact,
+     [](const Model&) { return std::string("meshes.0"); },
      [](const Model&) { return std::string("[[meshes]]"); }, "remove them"},
     {[](const Model& m) { return m.scene.aerodynamics.has_value(); }, &aerodynamics,
+     [](const Model&) { return std::string("aerodynamics"); },
      [](const Model&) { return std::string("[aerodynamics]"); }, "use [air]"},
     {[](const Model& m) { return m.scene.tethers.has_value(); }, &xpbd_tethers,
+     [](const Model&) { return std::string("tethers"); },
      [](const Model& m) { return fmt::format("[tethers] with slack {}", m.scene.tethers->slack); },
      "remove the section"},
     {[](const Model& m) { return m.scene.tearing.has_value(); }, &tear,
+     [](const Model&) { return std::string("tearing"); },
      [](const Model& m) { return fmt::format("[tearing] with strain {}", m.scene.tearing->strain); },
      "remove the section"},
 };
@@ -172,7 +184,7 @@ void require_passes(const Model& model, const Solver& solver) {
   for (const Solver* other : solvers())
     if (lists(*other, need->pass)) able += (able.empty() ? "" : ", ") + std::string(other->name);
   throw error(Exit::usage, "{}: {}: the solver {} has no passes for it; use one of {}, or {}",
-              model.scene.source, need->place(model), solver.name, able, need->cure);
+              place_of(model.scene, need->key(model)), need->about(model), solver.name, able, need->cure);
 }
 
 /// A link that is too long is either pulled back or breaks.
@@ -182,13 +194,13 @@ void require_one_limit(const Model& model) {
         Exit::usage,
         "{}: [tearing] stands beside material.strain_limit, which is {}; it must be one or the other, since "
         "a link is either pulled back or breaks (remove one)",
-        model.scene.source, model.scene.material.strain_limit);
+        place_of(model.scene, "tearing"), model.scene.material.strain_limit);
 }
 
-/// What joins particles by tables that are for one cloth, where the scene has several; empty: nothing.
+/// The section that joins particles by tables for one cloth, where the scene has several; empty: none.
 std::string for_one_cloth(const Model& model) {
   if (model.grid.cloths == 1) return "";
-  return model.scene.tearing ? "[tearing]" : model.scene.tethers ? "[tethers]" : "";
+  return model.scene.tearing ? "tearing" : model.scene.tethers ? "tethers" : "";
 }
 
 void require_one_cloth(const Model& model) {
@@ -196,9 +208,9 @@ void require_one_cloth(const Model& model) {
   if (section.empty()) return;
   throw error(
       Exit::usage,
-      "{}: {} stands beside [[cloths]], of which there are {}; it must be one or the other, since it is "
+      "{}: [{}] stands beside [[cloths]], of which there are {}; it must be one or the other, since it is "
       "for one cloth (remove one)",
-      model.scene.source, section, model.scene.cloths.size());
+      place_of(model.scene, section), section, model.scene.cloths.size());
 }
 
 }  // namespace
@@ -212,9 +224,9 @@ bool has_compensated(const Solver& solver) {
 
 std::string what_solver_lacks(const Model& model, const Solver& solver) {
   const Need* need = unmet_need(model, solver);
-  if (need != nullptr) return "has no passes for " + need->place(model);
+  if (need != nullptr) return "has no passes for " + need->about(model);
   const std::string section = for_one_cloth(model);
-  return section.empty() ? "" : "takes " + section + " for one cloth only";
+  return section.empty() ? "" : "takes [" + section + "] for one cloth only";
 }
 
 Plan compile_plan(const Model& model, const Solver& solver, std::string_view precision) {

@@ -31,10 +31,14 @@ struct Camera {
   glm::mat4 clip(double aspect) const;
 };
 
+/// As far as cloths slide in a window, which does not know how long it will be looked at.
+inline constexpr double kSlideShown_s = 2.0;
+
 /// What is worth seeing of a scene: where the cloth starts, where it will hang or lie, and the spheres.
-Bounds scene_bounds(const Model& model);
+/// @param film_s  how long it slides on a floor that leans, unless it is pinned
+Bounds scene_bounds(const Model& model, double film_s = kSlideShown_s);
 
 /// A three-quarter view that just holds scene_bounds() at width/height = `aspect`.
-Camera default_camera(const Model& model, double aspect);
+Camera default_camera(const Model& model, double aspect, double film_s = kSlideShown_s);
 
 }  // namespace weft

@@ -69,8 +69,9 @@ void copy_out(VkCommandBuffer commands, const gpu::Image& image, const gpu::Buff
 OffscreenRenderer::OffscreenRenderer(gpu::Device& device, const Model& model, const RenderOptions& options)
     : device_(device),
       options_(checked(device, options)),
-      camera_(options.camera.value_or(default_camera(model, double{1.0} * options.width / options.height))),
-      renderer_(device, model, kFormat, choose_samples(device, options.samples)) {
+      camera_(options.camera.value_or(
+          default_camera(model, double{1.0} * options.width / options.height, options.film_s))),
+      renderer_(device, model, kFormat, choose_samples(device, options.samples), options.film_s) {
   gpu::ImageOptions image;
   image.format = kFormat;
   image.width = options.width;

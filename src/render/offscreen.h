@@ -16,7 +16,8 @@ struct RenderOptions {
   std::uint32_t width = 1280, height = 720;  ///< pixels
   std::uint32_t samples = 0;                 ///< 1 or 4; 0: 4 on a GPU, 1 on a software device
   Look look;
-  std::optional<Camera> camera;  ///< absent: default_camera()
+  std::optional<Camera> camera;   ///< absent: default_camera()
+  double film_s = kSlideShown_s;  ///< what slides on a floor that leans is in the picture so long
 };
 
 class OffscreenRenderer {

@@ -71,8 +71,8 @@ VkSampleCountFlagBits choose_samples(gpu::Device& device, std::uint32_t wish) {
 }
 
 Renderer::Renderer(gpu::Device& device, const Model& model, VkFormat color_format,
-                   VkSampleCountFlagBits samples)
-    : device_(device), model_(&model), color_format_(color_format), samples_(samples) {
+                   VkSampleCountFlagBits samples, double film_s)
+    : device_(device), model_(&model), color_format_(color_format), samples_(samples), film_s_(film_s) {
   stage_.shadow_size = device.info().software ? kShadowSizeSoftware : kShadowSize;
   set_model(model);
   view_ =

@@ -60,7 +60,9 @@ VkSampleCountFlagBits choose_samples(gpu::Device& device, std::uint32_t wish);
 class Renderer {
  public:
   /// The model must outlive the renderer. Colours are written sRGB-encoded: give a UNORM format.
-  Renderer(gpu::Device& device, const Model& model, VkFormat color_format, VkSampleCountFlagBits samples);
+  /// @param film_s  as scene_bounds has it: shadows are drawn within those
+  Renderer(gpu::Device& device, const Model& model, VkFormat color_format, VkSampleCountFlagBits samples,
+           double film_s = kSlideShown_s);
 
   /// Another model in place of the one before, on the same pipelines; it must outlive the renderer. Waits for
   /// the pictures being drawn.
@@ -140,6 +142,7 @@ class Renderer {
   std::uint32_t listed_stride_ = 1;
   VkFormat color_format_;
   VkSampleCountFlagBits samples_;
+  double film_s_;
   Stage stage_;
   gpu::Buffer view_;
   gpu::Image shadow_map_, color_, depth_;

@@ -11,7 +11,7 @@ namespace weft {
 void Renderer::set_model(const Model& model) {
   device_.wait_idle();
   model_ = &model;
-  stage_.bounds = scene_bounds(model);
+  stage_.bounds = scene_bounds(model, film_s_);
   ball_count_ = ball_count(model);
   make_solids();
   if (model.grid.nx == listed_.nx && model.grid.ny == listed_.ny && model.grid.cloths == listed_.cloths)

@@ -102,7 +102,7 @@ void apply_list(Draft& draft, const Override& change, std::string_view section) 
     throw error(Exit::usage,
                 "{}: {} is a list; write {}.0.key=value for its first item, or {}=[{{key=value}}]",
                 change.place, section, section, section);
-  draft.clear_list(section);
+  remove_section(draft.scene, section);
   for (std::size_t item = 0; item < items->size(); ++item) {
     reach_item(draft, change, {section, item});
     set_keys(draft, change, {section, item}, *items->get(item)->as_table());

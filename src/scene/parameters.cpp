@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <system_error>
+#include <utility>
 
 #include "core/text.h"
 #include "scene/motion_keys.h"
@@ -61,6 +64,42 @@ void clear(std::optional<T>& section) {
 template <class T>
 void clear(std::vector<T>& section) {
   section.clear();
+}
+
+/// "meshes.2.file" → {2, ".file"} where the section is meshes; nothing for what is not of it.
+struct ItemKey {
+  std::size_t item;
+  std::string_view rest;
+};
+std::optional<ItemKey> item_key(std::string_view id, std::string_view section) {
+  if (!id.starts_with(section) || id.size() < section.size() + 2 || id[section.size()] != '.')
+    return std::nullopt;
+  const char* const first = id.data() + section.size() + 1;
+  const char* const last = id.data() + id.size();
+  std::size_t item = 0;
+  const auto [end, failure] = std::from_chars(first, last, item);
+  if (failure != std::errc()) return std::nullopt;
+  return ItemKey{item, std::string_view(end, static_cast<std::size_t>(last - end))};
+}
+
+/// Items after the one that went move up, and so do the places of their keys.
+void forget_item(Places& places, std::string_view section, std::size_t gone) {
+  Places kept;
+  for (const auto& [id, place] : places) {
+    const auto key = item_key(id, section);
+    if (!key || key->item < gone)
+      kept.emplace(id, place);
+    else if (key->item > gone)
+      kept.emplace(fmt::format("{}.{}{}", section, key->item - 1, key->rest), place);
+  }
+  places = std::move(kept);
+}
+
+void forget_section(Places& places, std::string_view section) {
+  std::erase_if(places, [&](const auto& entry) {
+    const std::string_view id = entry.first;
+    return id.starts_with(section) && (id.size() == section.size() || id[section.size()] == '.');
+  });
 }
 
 std::string words_text(std::string_view words) {
@@ -139,6 +178,7 @@ void remove_item(Scene& scene, std::string_view section, std::size_t item) {
   with_section(scene, section, [&](auto& part) {
     if constexpr (requires { part[0]; }) part.erase(part.begin() + static_cast<std::ptrdiff_t>(item));
   });
+  forget_item(scene.places, section, item);
 }
 
 std::size_t item_count(const Scene& scene, std::string_view section) {
@@ -155,6 +195,7 @@ void add_section(Scene& scene, std::string_view section) {
 
 void remove_section(Scene& scene, std::string_view section) {
   with_section(scene, section, [](auto& part) { clear(part); });
+  forget_section(scene.places, section);
 }
 
 std::string value_text(const ParameterValue& value) {

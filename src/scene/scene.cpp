@@ -6,6 +6,15 @@
 
 namespace weft {
 
+std::string place_of(const Scene& scene, std::string_view key) {
+  for (std::string_view id = key; !id.empty();) {
+    if (const auto found = scene.places.find(id); found != scene.places.end()) return found->second;
+    const std::size_t dot = id.rfind('.');
+    id = id.substr(0, dot == std::string_view::npos ? 0 : dot);
+  }
+  return scene.source.empty() ? "scene" : scene.source;
+}
+
 ClothSection cloth_of(const Scene& scene, std::size_t index) {
   ClothSection cloth = scene.cloth;
   if (index == 0) return cloth;

@@ -2,10 +2,13 @@
 // simulated. Defaults are those of docs/scene-format.md; reading and checking live in reader.h.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace weft {
@@ -174,9 +177,13 @@ struct ExpectSection {
   std::optional<double> max_stretch, p99_stretch, lowest_y_m, highest_y_m, energy_max_j, at_time_s;
 };
 
+/// Where keys and sections were given: "meshes.0.file" and "meshes.0" → "scene.toml:9", or the `--set`.
+using Places = std::map<std::string, std::string, std::less<>>;
+
 struct Scene {
   std::string title;
   std::string source;  ///< path of the file, for messages
+  Places places;       ///< of what the file and `--set` gave, for messages
   ClothSection cloth;
   std::vector<SheetSection> cloths;  ///< beyond the first
   MaterialSection material;
@@ -196,6 +203,10 @@ struct Scene {
   SolverSection solver;
   std::optional<ExpectSection> expect;
 };
+
+/// The place of a key such as "meshes.0.file"; of its section when the key is not given; of the file when
+/// neither is; "scene" where there is no file.
+std::string place_of(const Scene& scene, std::string_view key);
 
 /// [cloth] and [[cloths]] together.
 inline std::uint32_t cloth_count(const Scene& scene) {

@@ -15,10 +15,6 @@
 namespace weft {
 namespace {
 
-std::string key_id(const Target& target, std::string_view key) {
-  return fmt::format("{}[{}].{}", target.section, target.item, key);
-}
-
 /// A number, whether written as an integer or with a point; nothing for any other type.
 std::optional<double> number_of(const toml::node* node) {
   if (node == nullptr || !node->is_number()) return std::nullopt;
@@ -87,8 +83,10 @@ std::vector<std::string_view> keys_of(std::string_view section) {
 
 std::string full_key(const Target& target, std::string_view key) {
   if (target.section.empty()) return std::string(key);
-  if (is_list_section(target.section)) return fmt::format("{}.{}.{}", target.section, target.item, key);
-  return fmt::format("{}.{}", target.section, key);
+  const std::string section = is_list_section(target.section)
+                                  ? fmt::format("{}.{}", target.section, target.item)
+                                  : std::string(target.section);
+  return key.empty() ? section : fmt::format("{}.{}", section, key);
 }
 
 std::string node_text(const toml::node& node) {
@@ -116,7 +114,7 @@ void Draft::set(const Target& target, std::string_view key, const toml::node& no
   if (parameter == nullptr) refuse_unknown_key(target, key, place);
   if (parameter->kind == ParameterKind::keys) {
     parameter->set(scene, target.item, read_motion(*parameter, full_key(target, key), node, place));
-    places_[key_id(target, key)] = place;
+    scene.places[full_key(target, key)] = place;
     return;
   }
   const auto value = value_of(*parameter, node);
@@ -126,7 +124,7 @@ void Draft::set(const Target& target, std::string_view key, const toml::node& no
     throw error(Exit::usage, "{}: {} is {}; {}{}", place, full_key(target, key),
                 refused_text(*parameter, node), rule, nearest_word(*parameter, node));
   parameter->set(scene, target.item, *value);
-  places_[key_id(target, key)] = place;
+  scene.places[full_key(target, key)] = place;
   if (target.section == "material") yield_preset(key);
 }
 
@@ -147,23 +145,15 @@ void Draft::yield_preset(std::string_view key) {
 }
 
 void Draft::note_section(const Target& target, const Place& place) {
-  places_.emplace(key_id(target, ""), place);
-}
-
-void Draft::clear_list(std::string_view section) {
-  remove_section(scene, section);
-  std::erase_if(places_,
-                [&](const auto& entry) { return entry.first.starts_with(fmt::format("{}[", section)); });
+  scene.places.emplace(full_key(target), place);
 }
 
 Place Draft::place_of(const Target& target, std::string_view key) const {
-  for (const std::string& id : {key_id(target, key), key_id(target, "")})
-    if (const auto found = places_.find(id); found != places_.end()) return found->second;
-  return scene.source;
+  return weft::place_of(scene, full_key(target, key));
 }
 
 bool Draft::is_given(const Target& target, std::string_view key) const {
-  return places_.contains(key_id(target, key));
+  return scene.places.contains(full_key(target, key));
 }
 
 void Draft::take_preset(const std::string& name, const Place& place) {

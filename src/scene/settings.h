@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -27,7 +26,7 @@ struct Target {
   std::size_t item = 0;  ///< index in a list section
 };
 
-/// A scene being read, and where each of its keys stands for messages about contradictions.
+/// A scene being read, with the place of each of its keys for messages about contradictions.
 class Draft {
  public:
   Scene scene;
@@ -38,9 +37,6 @@ class Draft {
 
   /// Notes that a section, or an item of a list, begins at `place`.
   void note_section(const Target& target, const Place& place);
-
-  /// Empties a list section and forgets where its items stood.
-  void clear_list(std::string_view section);
 
   /// The place of a key; of its section when the key is not given; of the file when neither is.
   Place place_of(const Target& target, std::string_view key = {}) const;
@@ -54,12 +50,11 @@ class Draft {
  private:
   void yield_preset(std::string_view key);
 
-  std::map<std::string, Place, std::less<>> places_;
   std::set<std::string, std::less<>> preset_directions_;  ///< of warp and weft, that the preset gave
 };
 
-/// "spheres.0.radius", or "material.density": how messages and `--set` name a key.
-std::string full_key(const Target& target, std::string_view key);
+/// "spheres.0.radius", or "material.density": how messages and `--set` name a key, or a section.
+std::string full_key(const Target& target, std::string_view key = {});
 
 /// The value as a message shows it: a number, a quoted text, "a table", "a list of 3".
 std::string node_text(const toml::node& node);

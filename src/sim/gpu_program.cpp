@@ -72,7 +72,7 @@ bool host_reaches(BufferId id) {
 void require_precision(const gpu::Device& device, const Model& model, const Plan& plan) {
   if (!plan.in_double() || device.info().float64) return;
   throw error(Exit::no_device, "{}: solver.precision is f64, and {}; --device cpu computes it, too",
-              model.scene.source, gpu::no_float64(device.info(), gpu::list_devices()));
+              place_of(model.scene, "solver.precision"), gpu::no_float64(device.info(), gpu::list_devices()));
 }
 
 void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
@@ -91,7 +91,8 @@ void require_fits(gpu::Device& device, const Model& model, const Plan& plan) {
   throw error(Exit::no_device,
               "{}: cloth.resolution {} needs {} bytes, {} of them in one buffer; {} has {} bytes and binds "
               "at most {} at once; {}",
-              model.scene.source, model.grid.nx, need->total, need->largest, device.info().name, heap, range,
+              place_of(model.scene, "cloth.resolution"), model.grid.nx, need->total, need->largest,
+              device.info().name, heap, range,
               most > 1 && need_at(model, plan, most)
                   ? fmt::format("the largest resolution that fits is {}", most)
                   : std::string("no resolution of this cloth fits"));

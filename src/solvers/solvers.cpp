@@ -39,8 +39,8 @@ std::uint32_t substeps_per_frame(const Model& model, const Solver& solver) {
         "{}: the largest stable step is {:.3g} s, so that a frame of {:.3g} s needs {:.3g} substeps; at "
         "most {:.0f} are possible (lower cloth.resolution, material.membrane or material.bend, or raise "
         "material.density)",
-        model.scene.source.empty() ? "scene" : model.scene.source, step_s / kStepShare, section.frame_s,
-        needed, kSubstepsMax);
+        place_of(model.scene, "cloth.resolution"), step_s / kStepShare, section.frame_s, needed,
+        kSubstepsMax);
   return std::max(static_cast<std::uint32_t>(std::max(1.0, needed)), contact_substeps(model));
 }
 

@@ -157,6 +157,44 @@ TEST(Usage, AWishForAnErrorOrATimeStandsAlone) {
   expect_refused({"simulate", "1", "--budget", "4", "--solver", "xpbd"}, {"--budget", "--solver"});
 }
 
+// Every command heeds --device, also those that open none: a misspelt one is refused with what there is.
+TEST(Usage, AnUnknownDeviceIsRefusedByEveryCommand) {
+  for (const Arguments& arguments :
+       {Arguments{"plan", "1"}, Arguments{"simulate", "1", "--time", "0"}, Arguments{"validate", "1"},
+        Arguments{"bench", "1"}, Arguments{"render", "1", "--time", "0", "--out", "/tmp/never.png"},
+        Arguments{"study", "1", "--out", "/tmp/never"}, Arguments{"devices"}, Arguments{"scenes"},
+        Arguments{"materials"}, Arguments{"solvers"}}) {
+    Arguments words = arguments;
+    words.insert(words.end(), {"--device", "nativ"});
+    if (has_vulkan())
+      expect_refused(words, {"--device is \"nativ\"", "cpu or native", "usable"}, 3);
+    else
+      EXPECT_CODE(weft(words), 3);
+  }
+  for (const char* device : {"cpu", "native", "Native"})
+    EXPECT_CODE(weft({"plan", "1", "--device", device}), 0);
+}
+
+// Whatever command runs: a value that none could use is said, and nobody finds out later.
+TEST(Usage, EnvironmentVariablesAreCheckedByEveryCommand) {
+  const std::vector<std::pair<Environment, std::vector<std::string>>> cases = {
+      {{{"WEFT_THREADS", "0"}}, {"WEFT_THREADS is \"0\"", "1 to 1024", "WEFT_THREADS=1"}},
+      {{{"WEFT_THREADS", "many"}}, {"WEFT_THREADS is \"many\"", "1 to 1024"}},
+      {{{"WEFT_THREADS", "1025"}}, {"WEFT_THREADS is \"1025\"", "1 to 1024"}},
+      {{{"WEFT_THREADS", ""}}, {"WEFT_THREADS is \"\"", "1 to 1024"}},
+      {{{"WEFT_VECTOR", ""}}, {"WEFT_VECTOR is \"\"", "plain", "unset"}},
+      {{{"WEFT_VECTOR", "AVX3"}}, {"WEFT_VECTOR is \"AVX3\"", "plain", "unset"}},
+      {{{"WEFT_KERNEL", "strpi"}}, {"WEFT_KERNEL is \"strpi\"", "did you mean strip?"}},
+      {{{"WEFT_FORCE_STAGING", "yes"}}, {"WEFT_FORCE_STAGING is \"yes\"", "a whole number"}},
+  };
+  for (const auto& [environment, parts] : cases)
+    for (const Arguments& arguments : {Arguments{"devices"}, Arguments{"plan", "1"},
+                                       Arguments{"validate", "1"}, Arguments{"simulate", "1", "--time", "0"}})
+      expect_refused(arguments, parts, 2, environment);
+  EXPECT_CODE(weft({"devices"}, {{"WEFT_THREADS", "1024"}, {"WEFT_VECTOR", "PLAIN"}}), 0);
+  EXPECT_CODE(weft({"--help"}, {{"WEFT_THREADS", "0"}}), 0);
+}
+
 // A mistyped scene is said before a window is asked for.
 TEST(Usage, AnUnknownSceneIsExitTwoWithoutADisplay) {
   expect_refused({"view", "nosuchscene"}, {"nosuchscene"});

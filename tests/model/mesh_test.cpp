@@ -106,22 +106,47 @@ TEST_F(MeshTest, BadMeshesAreRefusedWithTheReason) {
   }
 }
 
+// Of several meshes a refusal names the entry that is meant: its line, or the --set that gave it.
+TEST_F(MeshTest, RefusalsNameTheEntry) {
+  write("cube.obj", kCube);
+  write("open.obj", kCorners + "f 1 2 3\nf 2 3 4\n");
+  const std::string scene = (folder_ / "scene.toml").string();
+  const std::string first = "[cloth]\nresolution = 4\n[[meshes]]\ncenter = [0, -9, 0]\nfile = \"cube.obj\"\n";
+  const auto reason = [&](const std::string& file, const SceneOverrides& overrides, Exit expected) {
+    const std::string text = first + "[[meshes]]\ncenter = [0, 9, 0]\nfile = \"" + file + "\"\n";
+    try {
+      build_model(parse_scene(text, scene, overrides).scene);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), expected) << e.what();
+      return std::string(e.what());
+    }
+    return std::string("not refused");
+  };
+  const std::string few = reason("open.obj", {}, Exit::usage);
+  EXPECT_TRUE(few.starts_with(scene + ":8: meshes.1.file is \"open.obj\"; ")) << few;
+  EXPECT_NE(few.find("it has 2 triangles"), std::string::npos) << few;
+  const std::string missing = reason("gone.obj", {}, Exit::io);
+  EXPECT_TRUE(missing.starts_with(scene + ":8: meshes.1.file is \"gone.obj\"; ")) << missing;
+  const std::string set = reason("cube.obj", {{"meshes.0.file=open.obj"}}, Exit::usage);
+  EXPECT_TRUE(set.starts_with("--set meshes.0.file=open.obj: meshes.0.file is \"open.obj\"; ")) << set;
+}
+
 // The second time it comes from the cache; a cache that is damaged is made anew.
 TEST_F(MeshTest, IsKeptBetweenRuns) {
   write("cube.obj", kCube);
   Scene scene;
   scene.source = (folder_ / "scene.toml").string();
-  MeshSection mesh;
+  MeshSection& mesh = scene.meshes.emplace_back();
   mesh.file = "cube.obj";
   mesh.resolution = 8;
-  const auto first = load_distance_grid(scene, mesh, 0.0);
+  const auto first = load_distance_grid(scene, 0, 0.0);
   ASSERT_EQ(std::distance(fs::directory_iterator(folder_ / "weft"), {}), 1);
   const fs::path kept = fs::directory_iterator(folder_ / "weft")->path();
-  EXPECT_EQ(load_distance_grid(scene, mesh, 0.0)->distance, first->distance);
+  EXPECT_EQ(load_distance_grid(scene, 0, 0.0)->distance, first->distance);
   fs::resize_file(kept, fs::file_size(kept) - 5);
-  EXPECT_EQ(load_distance_grid(scene, mesh, 0.0)->distance, first->distance);
+  EXPECT_EQ(load_distance_grid(scene, 0, 0.0)->distance, first->distance);
   mesh.scale = 2.0;
-  EXPECT_NEAR(load_distance_grid(scene, mesh, 0.0)->cell_m, 2.0 * first->cell_m, 1e-12);
+  EXPECT_NEAR(load_distance_grid(scene, 0, 0.0)->cell_m, 2.0 * first->cell_m, 1e-12);
 }
 
 }  // namespace

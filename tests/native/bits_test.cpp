@@ -252,6 +252,43 @@ TEST(NativeBits, LimitAndTearingBeginInTheSubstepOfTheReference) {
   }
 }
 
+/// A scrap of cloth, torn off around the particle in the middle, which is as far away as `far_m`.
+State with_scrap_at(const Model& model, double far_m) {
+  const Grid& grid = model.grid;
+  State state = start_state(model);
+  state.broken_links.assign(grid.count(), 0);
+  for (std::uint32_t j = grid.ny / 2 - 2; j <= grid.ny / 2 + 2; ++j)
+    for (std::uint32_t i = grid.nx / 2 - 2; i <= grid.nx / 2 + 2; ++i)
+      state.broken_links[grid.index(i, j)] = 15;
+  const std::uint32_t middle = grid.index(grid.nx / 2, grid.ny / 2);
+  state.position[middle] = {-far_m, 0.0, 0.0};
+  state.velocity[middle] = {0.0, 0.1, 0.0};
+  return state;
+}
+
+/// docs/float-form.md "Divergence": up to 2^63 m a broken link has the bits of one that does not exist,
+/// though native computes it with coefficients of 0; from 2^64 on both say that the state is unsound.
+TEST(NativeBits, ATornScrapFarAwayIsAsInTheReferenceOrUnsoundInBoth) {
+  const Model model = model_of("tearing", {"cloth.resolution=21"});
+  for (const native::Kernels* kernels : native::kernels_here())
+    for (const double far_m : {1e3, 1e12, 9.2e18, 1e30, 3e38}) {
+      SCOPED_TRACE(fmt::format("{}, {} m", kernels->name, far_m));
+      const State from = with_scrap_at(model, far_m);
+      const auto native_run = make_native_simulation(model, find_solver("leapfrog"), "f32",
+                                                     {.threads = 1, .vector = kernels->name});
+      const auto reference_run = make_cpu_simulation(model, find_solver("leapfrog"), "f32");
+      native_run->write(from);
+      reference_run->write(from);
+      const bool is_sound = far_m < 0x1p63;
+      EXPECT_EQ(!native_run->divergence(), is_sound);
+      EXPECT_EQ(!reference_run->divergence(), is_sound);
+      const State got = run(*native_run, 3), expected = run(*reference_run, 3);
+      EXPECT_EQ(!native_run->divergence(), is_sound);
+      EXPECT_EQ(!reference_run->divergence(), is_sound);
+      if (is_sound) expect_same(got, expected);
+    }
+}
+
 /// Spheres that hit from the side at 20 m/s, faster than a cell a substep: the swept branch too.
 TEST(NativeBits, FastSpheresEqualTheReference) {
   const Model model = model_of("5", {"cloth.resolution=41", "spheres.0.center=[0,0.5,0]",

@@ -294,6 +294,42 @@ TEST(Plan, refuses_self_collision_with_solvers_that_have_no_passes_for_it) {
   }
 }
 
+// What concerns two sections names the line of the one that has to go, or the --set that gave it.
+TEST(Plan, refusals_of_two_sections_name_a_line) {
+  const auto refusal = [](const std::string& text, const SceneOverrides& overrides = {}) {
+    try {
+      const Model model = build_model(parse_scene(text, "scene.toml", overrides).scene);
+      compile_plan(model, find_solver(model.scene.solver.name), model.scene.solver.precision);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("not refused");
+  };
+  const std::string two = "[cloth]\nresolution = 12\n[[cloths]]\ncenter = [0, 1, 0]\n[[pins]]\nat = [0, 0]\n";
+  const std::string one = "[cloth]\nresolution = 12\n", rk4 = "[solver]\nname = \"rk4\"\n";
+  const std::string xpbd = "[solver]\nname = \"xpbd\"\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {refusal(two + "[tearing]\nstrain = 0.5\n"), "scene.toml:7: [tearing] stands beside [[cloths]]"},
+      {refusal(two, {{"tearing.strain=0.5"}}), "--set tearing.strain=0.5: [tearing] stands beside"},
+      {refusal(two + xpbd + "[tethers]\n"), "scene.toml:9: [tethers] stands beside [[cloths]]"},
+      {refusal(one + "[material]\nstrain_limit = 0.1\n[tearing]\nstrain = 0.5\n"),
+       "scene.toml:5: [tearing] stands beside material.strain_limit"},
+      {refusal(one + rk4 + "[self_collision]\nthickness = 0.01\n"), "scene.toml:5: [self_collision] with"},
+      {refusal(one + rk4 + "[material]\ndamping = 0\nstrain_limit = 0.1\n"),
+       "scene.toml:7: material.strain_limit is 0.1"},
+      {refusal(one + "[floor]\nnormal = [0.1, 1, 0]\n" + rk4), "scene.toml:4: [[capsules]], [[boxes]] or"},
+      {refusal(one + rk4 + "[[boxes]]\ncenter = [0, -9, 0]\nsize = [1, 1, 1]\n"), "scene.toml:5: [[caps"},
+      {refusal(one + rk4 + "[aerodynamics]\n"), "scene.toml:5: [aerodynamics]"},
+      {refusal(one + "[[pins]]\nat = [0, 0]\n[tethers]\n"), "scene.toml:5: [tethers] with slack 0"},
+      {refusal(one + xpbd + "[tethers]\n"), "scene.toml:5: [tethers] has nothing to hold on to"},
+      {refusal(one + rk4 + "precision = \"f32k\"\n"), "scene.toml:5: solver.precision is f32k"},
+      {refusal(one + "[self_collision]\nfriction = 0\nthickness = 0.99\n[solver]\nsubsteps = 9\n"),
+       "scene.toml:5: self_collision.thickness is 0.99"},
+  };
+  for (const auto& [said, beginning] : cases)
+    EXPECT_TRUE(said.starts_with(beginning)) << said << "\nis to begin: " << beginning;
+}
+
 TEST(Plan, as_json_carries_the_documented_keys_and_the_same_numbers) {
   const Model model = model_of("[cloth]\nresolution = 12\n[gravity]\n");
   const Plan plan = compile_plan(model, find_solver("leapfrog"));

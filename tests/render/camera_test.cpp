@@ -85,6 +85,27 @@ TEST(Camera, DefaultViewHoldsTheClothWhereverItGoes) {
   }
 }
 
+// On a floor that leans it slides on and on: as long as the film is, and no farther away than that asks for.
+TEST(Camera, DefaultViewFollowsAClothDownASlope) {
+  constexpr double kAspect = 16.0 / 9.0;
+  const Model model = build_model(load_scene(find_scene("slope")).scene);
+  const auto simulation = make_cpu_simulation(model, find_solver(model.scene.solver.name), "f32");
+  double reach_before = 0.0;
+  for (int frame = 1; frame <= 180; ++frame) {
+    simulation->advance(model.scene.solver.frame_s, simulation->plan().substeps);
+    if (frame % 45 != 0) continue;
+    const Camera camera = default_camera(model, kAspect, frame / 60.0);
+    double reach = 0.0;
+    for (const glm::dvec3& p : simulation->read().position) {
+      const glm::dvec3 place = ndc(camera, kAspect, p);
+      reach = std::max({reach, std::abs(place.x), std::abs(place.y)});
+    }
+    EXPECT_LE(reach, 1.0) << "leaves the picture after " << frame << " frames";
+    reach_before = std::max(reach_before, reach);
+  }
+  EXPECT_GE(reach_before, 0.6) << "is needlessly far away";
+}
+
 TEST(Camera, BoundsKnowWhereAClothWillHang) {
   Scene scene;
   scene.cloth.center_m = {0.0, 1.0, 0.0};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/grid_rule.h"
+#include "scene/parameters.h"
 #include "scene/scene_text.h"
 #include "shared/params.h"
 
@@ -18,6 +19,27 @@ TEST(Checks, WindNeedsAirAndGustsNeedAPeriod) {
   expect_refused(windy + "gust = 0.5\n", {"scene.toml:6: wind.gust is 0.5", "period = 2"});
   expect_refused(windy + "gust = 0.5\nperiod = 1e-4\n", {"0.001 s or more"});
   EXPECT_EQ(refusal(windy + "gust = 0.5\nperiod = 0.001\n"), "accepted");
+}
+
+// What is wrong later, in the model or the plan, names the same places; in the window items come and go.
+TEST(Checks, PlacesGoWithTheirKeys) {
+  Scene scene = parse_scene(
+                    "[cloth]\n[[spheres]]\nradius = 1\ncenter = [0, 9, 0]\n[[spheres]]\nradius = 2\n"
+                    "center = [0, 9, 0]\n[[pins]]\nat = [0, 0]\n",
+                    "scene.toml", {{"spheres.1.friction=0.5"}})
+                    .scene;
+  EXPECT_EQ(place_of(scene, "spheres.0.radius"), "scene.toml:3");
+  EXPECT_EQ(place_of(scene, "spheres.1.radius"), "scene.toml:6");
+  EXPECT_EQ(place_of(scene, "spheres.1.friction"), "--set spheres.1.friction=0.5");
+  EXPECT_EQ(place_of(scene, "spheres.1.velocity"), "scene.toml:5") << "of its section";
+  EXPECT_EQ(place_of(scene, "gravity.acceleration"), "scene.toml") << "of neither";
+  EXPECT_EQ(place_of(Scene{}, "gravity"), "scene");
+  remove_item(scene, "spheres", 0);
+  EXPECT_EQ(place_of(scene, "spheres.0.radius"), "scene.toml:6");
+  EXPECT_EQ(place_of(scene, "spheres.1.radius"), "scene.toml");
+  EXPECT_EQ(place_of(scene, "pins.0.at"), "scene.toml:9");
+  remove_section(scene, "spheres");
+  EXPECT_EQ(place_of(scene, "spheres.0.radius"), "scene.toml");
 }
 
 // 11 particles on 1 m: a = 0.1 m. The point (0.25, 0) lies 0.05 m from its nearest particles.
