@@ -205,5 +205,46 @@ TEST_F(SpreadFramesOnGpu, AreTakenBackWhereTheClothFolds) {
   EXPECT_LT(got->self_collision()->spread_frames, 8u);
 }
 
+/// Cloth at rest, of wide cells, and a sphere that reaches it from below in its twelfth frame, 0.195 s.
+Model struck() {
+  std::string pins;
+  for (const char* corner : {"[0, 0]", "[1, 0]", "[0, 1]", "[1, 1]"})
+    pins += fmt::format("[[pins]]\nat = {}\n", corner);
+  return build_model(
+      parse_scene(
+          "[cloth]\nresolution = 9\nimperfection = 0\norientation = \"horizontal\"\ncenter = [0, 0, 0]\n" +
+              pins +
+              "[self_collision]\nthickness = 0.01\n[[spheres]]\nradius = 0.3\nkeys = [{time = 0, center = "
+              "[0, -0.5, 0]}, {time = 1, center = [0, 0.5, 0]}]\n",
+          "struck.toml")
+          .scene);
+}
+
+// A blow between two looks: neither of them sees cloth that is not spread, but `integrate` tells of it.
+TEST_F(SpreadFramesOnGpu, AreTakenBackAfterABlow) {
+  const Model model = struck();
+  const auto got = on_device(model);
+  advance(*got, 11);
+  EXPECT_EQ(got->self_collision()->spread_frames, 11u);
+  advance(*got, 1);
+  EXPECT_EQ(got->self_collision()->spread_frames, 11u);
+}
+
+// What is put back is the frame's start, not a state before somebody moved a pin.
+TEST_F(SpreadFramesOnGpu, KeepWhatIsPlacedWhereTheyCannotBeProven) {
+  const Model model = struck();
+  const auto right = make_host_reference(model, find_solver("leapfrog"), "f32");
+  const auto got = on_device(model);
+  advance(*right, 11);
+  advance(*got, 11);
+  const std::vector placed{PlacedParticle{
+      0, glm::vec3(right->read().position[0]) + glm::vec3(0.01f, 0.0f, 0.0f), glm::vec3(0.0f)}};
+  right->place(placed);
+  got->place(placed);
+  advance(*right, 1);
+  advance(*got, 1);
+  expect_same(*got, *right);
+}
+
 }  // namespace
 }  // namespace weft
