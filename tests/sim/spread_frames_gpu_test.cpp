@@ -215,7 +215,7 @@ Model struck() {
           "[cloth]\nresolution = 9\nimperfection = 0\norientation = \"horizontal\"\ncenter = [0, 0, 0]\n" +
               pins +
               "[self_collision]\nthickness = 0.01\n[[spheres]]\nradius = 0.3\nkeys = [{time = 0, center = "
-              "[0, -0.5, 0]}, {time = 1, center = [0, 0.5, 0]}]\n",
+              "[0, -0.3245, 0]}, {time = 1, center = [0, -0.2245, 0]}]\n",
           "struck.toml")
           .scene);
 }
