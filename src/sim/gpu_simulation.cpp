@@ -338,9 +338,8 @@ void VulkanSimulation::run_frame_end(Watched watched) {
     gpu::Recorder recorder(device_, commands);
     for (std::size_t step = 0; step < plan_.steps.size(); ++step) {
       const Pass& pass = *plan_.steps[step].pass;
-      if (plan_.steps[step].block != Block::frame_end || program_.flips(step) || &pass == &carry ||
-          &pass == &pair_check)
-        continue;
+      const bool moves = program_.flips(step) || pass.tells_reach || &pass == &carry || &pass == &pair_check;
+      if (plan_.steps[step].block != Block::frame_end || moves) continue;
       if (watched == Watched::yes || !watches(pass)) program_.dispatch(recorder, step, parity_, 0, 0);
     }
     recorder.finish();

@@ -54,5 +54,32 @@ TEST_F(TornGpuTest, links_go_with_the_state) {
   EXPECT_EQ(simulation->read().broken_links, state.broken_links);
 }
 
+// Normals for a picture amid a frame change nothing of what is simulated.
+TEST_F(TornGpuTest, NormalsAmidAFrameLeaveTheStateAlone) {
+  Scene scene = full_model("").scene;
+  scene.tearing = TearingSection{0.02};
+  const Model model = build_model(scene);
+  const auto end_state = [&](bool draws) {
+    const auto simulation =
+        GpuSimulation::create(device(), model, find_solver("leapfrog"), {.dispatches_per_submit = 5});
+    State torn = start_state(model);
+    torn.broken_links.assign(model.grid.count(), 0);
+    torn.broken_links[7] = 5u;
+    for (std::size_t p = 0; p < torn.velocity.size(); ++p)
+      torn.velocity[p] = {0.0, 0.0, p % 3 == 0 ? 2.0 : -1.0};
+    simulation->write(torn);
+    for (int f = 0; f < 3; ++f) {
+      simulation->begin_frame(1.0 / 60.0, simulation->plan().substeps);
+      while (simulation->continue_frame())
+        if (draws) simulation->refresh_normals();
+    }
+    return simulation->read();
+  };
+  const State drawn = end_state(true), plain = end_state(false);
+  EXPECT_EQ(drawn.broken_links, plain.broken_links);
+  EXPECT_TRUE(drawn.position == plain.position);
+  EXPECT_TRUE(drawn.velocity == plain.velocity);
+}
+
 }  // namespace
 }  // namespace weft::test
